@@ -1,0 +1,66 @@
+#include "base/source.hpp"
+
+#include "base/text.hpp"
+
+#include <algorithm>
+
+namespace axil {
+
+namespace {
+
+std::size_t lineStart(std::string_view text, std::size_t offset) {
+  const std::size_t newline = offset == 0 ? std::string_view::npos : text.rfind('\n', offset - 1);
+  return newline == std::string_view::npos ? 0 : newline + 1;
+}
+
+std::string_view lineAt(std::string_view text, std::size_t start) {
+  std::string_view line = text.substr(start, text.find('\n', start) - start);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+// East Asian wide characters take two cells of a terminal; the caret line must too.
+std::string blankLike(std::string_view text) {
+  std::string blank;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = utf8Length(text[i]);
+    blank += text[i] == '\t' ? "\t" : (length >= 3 ? "  " : " ");
+    i += length;
+  }
+  return blank;
+}
+
+}  // namespace
+
+SourcePlace placeOf(std::string_view text, std::uint32_t offset) {
+  const std::size_t at = std::min<std::size_t>(offset, text.size());
+  const std::size_t start = lineStart(text, at);
+  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(start), '\n') + 1;
+  return {static_cast<int>(line), static_cast<int>(countCharacters(text.substr(start, at - start))) + 1};
+}
+
+bool hasErrors(const std::vector<Diagnostic>& diagnostics) {
+  return std::any_of(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& d) { return d.severity == Severity::Error; });
+}
+
+std::string formatDiagnostic(const Diagnostic& diagnostic, std::string_view text, std::string_view fileName) {
+  const SourcePlace place = placeOf(text, diagnostic.span.begin);
+  std::string line(fileName);
+  line += ':' + std::to_string(place.line) + ':' + std::to_string(place.column);
+  line += diagnostic.severity == Severity::Error ? ": error: " : ": warning: ";
+  line += diagnostic.message;
+  if (!diagnostic.hint.empty()) line += " (" + diagnostic.hint + ")";
+  return line;
+}
+
+std::string formatWithCaret(const Diagnostic& diagnostic, std::string_view text, std::string_view fileName) {
+  const std::size_t begin = std::min<std::size_t>(diagnostic.span.begin, text.size());
+  const std::size_t start = lineStart(text, begin);
+  const std::string_view line = lineAt(text, start);
+  const std::size_t from = std::min(begin - start, line.size());
+  const std::size_t to = std::clamp<std::size_t>(diagnostic.span.end > begin ? diagnostic.span.end - start : from, from, line.size());
+  const std::size_t width = std::max<std::size_t>(1, blankLike(line.substr(from, to - from)).size());
+  return formatDiagnostic(diagnostic, text, fileName) + "\n  " + std::string(line) + "\n  " + blankLike(line.substr(0, from)) + std::string(width, '^');
+}
+
+}  // namespace axil

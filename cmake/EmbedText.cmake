@@ -1,0 +1,17 @@
+# Writes FOLDER/data.hpp and data.cpp: each of FILES (separated by |) as a std::string_view named after the file's stem.
+# The text goes in as bytes, so its length has no limit and no character needs escaping.
+string(REPLACE "|" ";" FILES "${FILES}")
+set(header "#pragma once\n// Made from the room's data files by cmake/EmbedText.cmake.\n#include <string_view>\nnamespace axil::${ROOM}::data {\n")
+set(source "// Made from the room's data files by cmake/EmbedText.cmake.\n#include \"${ROOM}/data.hpp\"\nnamespace axil::${ROOM}::data {\nnamespace {\n")
+set(views "")
+foreach(file ${FILES})
+  get_filename_component(stem ${file} NAME_WE)
+  file(READ ${file} hex HEX)
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")
+  string(APPEND header "extern const std::string_view ${stem};\n")
+  string(APPEND source "constexpr unsigned char ${stem}_bytes[] = {${bytes}0};\n")
+  string(APPEND views "const std::string_view ${stem}{reinterpret_cast<const char*>(${stem}_bytes), sizeof ${stem}_bytes - 1};\n")
+endforeach()
+file(MAKE_DIRECTORY ${FOLDER})
+file(WRITE ${FOLDER}/data.hpp "${header}}\n")
+file(WRITE ${FOLDER}/data.cpp "${source}}\n${views}}\n")

@@ -1,0 +1,1 @@
+#include "simeco/grammar.hpp"

@@ -1,0 +1,1 @@
+#include "keywords/types.hpp"

@@ -1,0 +1,1 @@
+#include "organs/types.hpp"

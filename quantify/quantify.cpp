@@ -1,0 +1,1 @@
+#include "quantify/types.hpp"

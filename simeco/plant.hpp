@@ -1,0 +1,66 @@
+#pragma once
+/// \file
+/// Plant: a grammar grown to one moment. Organs with frames, sizes and ages, ready to be drawn or measured; plain values
+/// that own everything. Frame: the plant's, Y up; lengths in the grammar's unit (metres in what Axil emits).
+/// Sources: docs/simeco.md, "Growth"; L-Grammar Generator 2005, sections 3.3.4 and 3.4.
+
+#include "base/frames.hpp"
+#include "base/ids.hpp"
+#include "base/source.hpp"
+#include "simeco/grammar.hpp"
+
+#include <glm/vec4.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace axil::simeco {
+
+struct OrganTag;
+using OrganId = Id<OrganTag>;  ///< index into Plant::organs
+
+/// How a stage looks: one a (organ kind, stage), shared by its organs.
+struct OrganStyle {
+  OrganKind kind = OrganKind::Stem;
+  int stage = 0;
+  std::string model;                     ///< "ovate.i"; empty: the kind's default
+  std::string texture;
+  std::optional<glm::dvec4> colour;      ///< ColorFront, RGBA 0 to 1
+  double growTime = 0;                   ///< age at which an organ of this stage is fully grown
+  friend bool operator==(const OrganStyle&, const OrganStyle&) = default;
+};
+
+/// A body: it runs from `base` along `direction` for `length`.
+struct Organ {
+  OrganKind kind = OrganKind::Stem;
+  std::int32_t style = 0;                ///< index into Plant::styles
+  std::optional<OrganId> parent;         ///< the organ at whose tip it starts; always a smaller id
+  bool branch = false;                   ///< stands in brackets: leaves its parent's axis
+  PlantPoint base;
+  PlantDirection direction = PlantDirection::up();
+  PlantDirection rAxis = PlantDirection::along({1, 0, 0});
+  PlantDirection adaxial = PlantDirection::along({0, 0, 1});  ///< upper side of a blade, perpendicular to direction
+  double length = 0;
+  double radius = 0;                     ///< half the width: of a stem's body, else of the organ at its widest (0: by its shape)
+  double age = 0;                        ///< in the grammar's time, since birth
+  std::int32_t production = -1;          ///< rule that made it, in text order over all plants; -1: the axiom
+  std::int64_t module = -1;              ///< which module of the string it is; -1: a body that stayed behind when it was rewritten
+
+  [[nodiscard]] PlantPoint tip() const { return {base.at + direction.unit() * length}; }
+  friend bool operator==(const Organ&, const Organ&) = default;
+};
+
+/// One plant or several of one ecosystem, at time `time`.
+struct Plant {
+  std::string name;
+  double time = 0;
+  std::vector<OrganStyle> styles;
+  std::vector<Organ> organs;             ///< parent before child
+
+  [[nodiscard]] const Organ& at(OrganId id) const { return organs[static_cast<std::size_t>(id.value)]; }
+  [[nodiscard]] const OrganStyle& styleOf(const Organ& organ) const { return styles[static_cast<std::size_t>(organ.style)]; }
+  friend bool operator==(const Plant&, const Plant&) = default;
+};
+
+}  // namespace axil::simeco

@@ -1,0 +1,1 @@
+#include "skeleton3d/types.hpp"

@@ -1,0 +1,112 @@
+#pragma once
+/// \file
+/// The nouns of the measuring room: cameras and clicks come in, a Skeleton goes out.
+///
+/// Frames and units: clicks are PhotoPoints (px), everything else is in the plant's frame and the project's unit (metres
+/// unless the project says otherwise). A Skeleton is a tree: one root, each stem a chain of nodes that begins with a node
+/// of its parent stem (the first stem with the root). Plain values; nothing here owns a photo.
+/// Source: L-Grammar Generator 2005, section 3.2.
+
+#include "base/frames.hpp"
+#include "base/ids.hpp"
+
+#include <glm/mat3x3.hpp>
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace axil::skeleton3d {
+
+struct NodeTag;
+struct StemTag;
+using NodeId = Id<NodeTag>;  ///< the id a project gives a node; unique, any number from 0
+using StemId = Id<StemTag>;
+
+enum class CameraModel {
+  Orthographic,  ///< u = s x + cx, v = s y + cy
+  Perspective,   ///< u = fx x/z + cx after lens distortion
+  Unknown,       ///< to be estimated; cannot project yet
+};
+
+/// How a view projects: x_cam = rotation * X + translation, x right, y down, z forward, as in OpenCV.
+struct Camera {
+  CameraModel model = CameraModel::Unknown;
+  std::optional<glm::dvec2> focal_px;            ///< fx, fy; perspective, or a hint for an unknown camera
+  glm::dvec2 centre_px{0, 0};                    ///< cx, cy
+  std::array<double, 5> distortion{0, 0, 0, 0, 0};  ///< k1, k2, p1, p2, k3 (perspective)
+  double scale_px_per_unit = 0;                  ///< s; orthographic
+  glm::dmat3 rotation{1.0};                      ///< GLM is column-major: rotation[column][row]
+  glm::dvec3 translation{0, 0, 0};
+
+  friend bool operator==(const Camera&, const Camera&) = default;
+};
+
+/// One photo's place in the measurement. `size_px` may be unknown (0, 0); then clicks are not checked against it.
+struct View {
+  std::string name;  ///< "front", "right", "top", or any other
+  Camera camera;
+  glm::ivec2 size_px{0, 0};
+
+  friend bool operator==(const View&, const View&) = default;
+};
+
+/// A point of the plant as a person clicked it: at most one click a view, keyed by the view's name.
+struct ClickedNode {
+  NodeId id;
+  std::map<std::string, PhotoPoint> clicks;
+  std::optional<double> radius;  ///< half the stem's width, project's unit
+};
+
+/// A stem as a person clicked it: node ids from where it leaves its parent to its tip.
+struct ClickedStem {
+  StemId id;
+  std::vector<NodeId> nodes;
+};
+
+/// A node of the skeleton. `sigma`: standard deviation of each coordinate for a click noise of `SolveOptions::click_px`.
+struct Node {
+  NodeId id;
+  PlantPoint position;
+  std::optional<double> radius;
+  glm::dvec3 sigma{0, 0, 0};
+  std::map<std::string, double> reprojection_px;  ///< view name -> distance of the click from the node's projection
+
+  friend bool operator==(const Node&, const Node&) = default;
+};
+
+struct Stem {
+  StemId id;
+  std::optional<StemId> parent;  ///< none: the first stem
+  std::vector<NodeId> nodes;     ///< at least two; the first belongs to the parent (or is the root)
+
+  friend bool operator==(const Stem&, const Stem&) = default;
+};
+
+/// A leaf blade on a stem. `position` is where it is attached, `direction` points along the blade to its tip, `normal` is
+/// its adaxial (upper) side, perpendicular to `direction`.
+struct Leaf {
+  StemId stem;
+  PlantPoint position;
+  PlantDirection direction = PlantDirection::up();
+  PlantDirection normal = PlantDirection::up();
+  double length = 0;
+  double width = 0;
+  std::string shape;  ///< a name that organs::leafShape knows; empty: unknown
+
+  friend bool operator==(const Leaf&, const Leaf&) = default;
+};
+
+struct Skeleton {
+  std::string unit = "m";
+  NodeId root;
+  std::vector<Node> nodes;  ///< in the order they came
+  std::vector<Stem> stems;  ///< a parent always before its children
+  std::vector<Leaf> leaves;
+
+  friend bool operator==(const Skeleton&, const Skeleton&) = default;
+};
+
+}  // namespace axil::skeleton3d

@@ -1,0 +1,28 @@
+#include "base/source.hpp"
+
+#include <gtest/gtest.h>
+
+namespace axil {
+namespace {
+
+TEST(Source, ColumnsCountCharactersNotBytes) {
+  const std::string text = "a\n馬櫻x\n";
+  EXPECT_EQ(placeOf(text, 8), (SourcePlace{2, 3}));
+  EXPECT_EQ(placeOf(text, 0), (SourcePlace{1, 1}));
+  EXPECT_EQ(placeOf(text, 999), (SourcePlace{3, 1}));
+}
+
+TEST(Source, ADiagnosticPrintsItsPlaceItsHintAndACaret) {
+  const std::string text = "one\n  two three\n";
+  const Diagnostic d{Severity::Error, {6, 9}, "unknown word 'two'", "did you mean 'too'?"};
+  EXPECT_EQ(formatDiagnostic(d, text, "g.simeco"), "g.simeco:2:3: error: unknown word 'two' (did you mean 'too'?)");
+  EXPECT_EQ(formatWithCaret(d, text, "g.simeco"), "g.simeco:2:3: error: unknown word 'two' (did you mean 'too'?)\n    two three\n    ^^^");
+}
+
+TEST(Source, TheCaretStandsUnderWideCharacters) {
+  const Diagnostic d{Severity::Warning, {6, 7}, "m", ""};
+  EXPECT_EQ(formatWithCaret(d, "馬櫻x", "f"), "f:1:3: warning: m\n  馬櫻x\n      ^");
+}
+
+}  // namespace
+}  // namespace axil
