@@ -16,6 +16,22 @@
 
 namespace axil::quantify {
 
+/// Leaves that a user gives a stem, before they have places. What is left out comes from the description's presets, else
+/// from stated defaults (quantify/leaves.hpp).
+struct LeafArrangement {
+  skeleton3d::StemId stem;
+  std::string arrangement;               ///< "decussate"; a name that keywords::arrangementNamed knows
+  std::optional<int> nodes;              ///< how many leaf nodes, spread evenly along the stem
+  std::vector<skeleton3d::NodeId> at;    ///< or the skeleton nodes that carry leaves
+  std::optional<Angle> angle;            ///< between the stem and the blade
+  std::optional<Angle> roll;             ///< of the blade about itself
+  std::optional<Angle> azimuth;          ///< around the stem, of the first leaf: its rotu at that node
+  std::optional<double> length;          ///< of the blade
+  std::optional<double> width;
+  std::optional<double> petiole;
+  std::string shape;
+};
+
 struct SegmentTag;
 using SegmentId = Id<SegmentTag>;  ///< index into Measurements::segments
 
