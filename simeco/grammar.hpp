@@ -32,6 +32,8 @@ struct Number {
   friend bool operator==(const Number&, const Number&) = default;
 };
 [[nodiscard]] Number fixedNumber(double value, int decimals);
+/// How a literal is printed: with its decimals when that reads back as `value`, else the shortest text that does.
+[[nodiscard]] std::string textOf(const Number& number);
 
 /// A formal parameter, a variable, an environment attribute.
 struct Name {
@@ -120,11 +122,14 @@ struct Statement {
 
 // ---- rules -----------------------------------------------------------------------------------------------------------
 
-/// Comment lines as they stand, with their // or /* */: before the thing, and after it on its last line.
+/// Comments as they stand, with their // or /* */. An empty line in `before` or `inside` is a blank line of the text; it is
+/// kept for the reader and does not matter to equality.
 struct Comments {
-  std::vector<std::string> before;
-  std::string trailing;
-  friend bool operator==(const Comments&, const Comments&) = default;
+  std::vector<std::string> before = {};  ///< in lines of their own above the thing
+  std::string trailing = {};             ///< after it on its last line
+  std::string opening = {};              ///< of a block: after its { on the same line
+  std::vector<std::string> inside = {};  ///< of a block: above its }
+  friend bool operator==(const Comments& a, const Comments& b);
 };
 
 /// One letter of the L-system string. In a predecessor or context an argument that is a Name binds a formal parameter and
@@ -163,6 +168,7 @@ struct Production {
 struct ContextFilter {
   enum class Mode { None, Ignore, Consider } mode = Mode::None;
   std::vector<std::string> letters;
+  Comments comments = {};
   friend bool operator==(const ContextFilter&, const ContextFilter&) = default;
 };
 
@@ -199,6 +205,7 @@ struct RuleSet {
   Block endEach;
   Block end;
   Comments axiomComments;
+  Comments comments;                       ///< of the whole block (SimEco's Grow)
 };
 
 // ---- plants ----------------------------------------------------------------------------------------------------------
