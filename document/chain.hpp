@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// The chain: from an open project to its skeleton, its numbers and its grammars. Each function does the steps before it,
+/// so each can be asked alone; nothing is written to disk. Source: L-Grammar Generator 2005, chapter 3.
+
+#include "base/progress.hpp"
+#include "document/project.hpp"
+#include "emit/emit.hpp"
+#include "keywords/keywords.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace axil::document {
+
+struct ChainOptions {
+  skeleton3d::SolveOptions solve = {};
+  TurningRule turning = TurningRule::Exact;
+  int decimals = 6;  ///< of the numbers in a grammar; -1: full precision
+  Watch watch = {};
+};
+
+enum class GrammarKind { Initial, Predictive, Structured };
+[[nodiscard]] const char* nameOf(GrammarKind kind);
+
+/// What the project's description sets.
+[[nodiscard]] Result<keywords::Presets> presetsOf(const Project& project);
+
+/// The project's views as the measuring room takes them: every photo that is named is there, is a photo, and has the size
+/// the file says; sizes nobody said are filled in.
+[[nodiscard]] Result<std::vector<skeleton3d::View>> viewsOf(const OpenProject& open);
+
+[[nodiscard]] Result<skeleton3d::Skeleton> skeletonOf(const OpenProject& open, const ChainOptions& options);
+[[nodiscard]] Result<quantify::Measurements> measurementsOf(const OpenProject& open, const ChainOptions& options);
+[[nodiscard]] Result<quantify::Measurements> measurementsOf(const skeleton3d::Skeleton& skeleton, const ChainOptions& options);
+[[nodiscard]] Result<simeco::Grammar> grammarOf(const OpenProject& open, GrammarKind kind, const ChainOptions& options);
+[[nodiscard]] Result<simeco::Grammar> grammarOf(const Project& project, const quantify::Measurements& measurements, GrammarKind kind,
+                                                const ChainOptions& options);
+
+}  // namespace axil::document

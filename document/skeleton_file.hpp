@@ -1,0 +1,14 @@
+#pragma once
+/// \file
+/// skeleton.json: a Skeleton as the file of docs/files.md, for other programs and for `axil skeleton` and `axil grow`.
+
+#include "skeleton3d/types.hpp"
+
+#include <string>
+
+namespace axil::document {
+
+/// Numbers in their shortest exact form. A radius, a width or a shape nobody gave is left out.
+[[nodiscard]] std::string skeletonText(const skeleton3d::Skeleton& skeleton);
+
+}  // namespace axil::document
