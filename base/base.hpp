@@ -9,6 +9,7 @@
 #include "base/ids.hpp"         // typed numbers that name things
 #include "base/source.hpp"      // places in a text, and what is wrong there
 #include "base/text.hpp"        // numbers and encodings, without a locale
+#include "base/table.hpp"       // tables of data that people edit
 #include "base/files.hpp"       // whole files; write aside, then rename
 #include "base/rng.hpp"         // chance as an argument
 #include "base/progress.hpp"    // how far, and stop

@@ -1,1 +1,0 @@
-#include "organs/types.hpp"

@@ -1,0 +1,8 @@
+#pragma once
+/// \file
+/// Organs: small meshes of leaves, flowers and fruits, from a name or a few numbers, at a chosen level of detail. The room
+/// knows neither plants nor text: keywords finds a shape's name in a description, render scales and turns the mesh and puts
+/// it where a grammar says. Every mesh is a plain value and depends on nothing but its arguments.
+
+#include "organs/types.hpp"   // Mesh, Part, Detail
+#include "organs/leaf.hpp"    // leaf shapes, flat outlines, curved blades
