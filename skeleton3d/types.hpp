@@ -53,6 +53,24 @@ struct View {
   friend bool operator==(const View&, const View&) = default;
 };
 
+/// Two clicked points of a photo whose true distance (project's unit) is known: a ruler, a rod, the edge of a pot.
+struct KnownLength {
+  PhotoPoint from;
+  PhotoPoint to;
+  double length = 0;
+
+  friend bool operator==(const KnownLength&, const KnownLength&) = default;
+};
+
+/// What is known about a camera that nobody calibrated; its focal length, where known exactly, is Camera::focal_px.
+struct UnknownCameraHints {
+  std::optional<PhotoPoint> origin_px;      ///< the plant's origin (collar) in this photo
+  std::optional<KnownLength> scale;         ///< where several views give the same length it is taken for the same object
+  std::optional<double> exif_focal_px;      ///< what the photo's EXIF data say: good to some percent
+
+  friend bool operator==(const UnknownCameraHints&, const UnknownCameraHints&) = default;
+};
+
 /// A point of the plant as a person clicked it: at most one click a view, keyed by the view's name.
 struct ClickedNode {
   NodeId id;

@@ -1,1 +1,0 @@
-#include "skeleton3d/types.hpp"

@@ -1,0 +1,20 @@
+#pragma once
+/// \file
+/// The measuring room: photos, cameras and clicks come in, a Skeleton goes out. It knows nothing of grammars.
+///
+/// A person photographs a plant from several sides (front, right and top by name) and clicks the same points of it, the
+/// nodes, in two or more of the photos; stems are chains of nodes. Each click is a ray of the plant's space; a node is where
+/// its rays meet best, measured in pixels. Every node carries how sure it is (sigma) and how far each click is from where
+/// the node projects to. What goes out is one tree, checked; whatever is wrong with it is said in one go, node by node.
+///
+/// Cameras are either known (orthographic or perspective, with lens distortion) or estimated first, from nominal directions,
+/// a clicked origin, a known length and the clicks themselves.
+///
+/// Units: photos in pixels, space in the project's unit. Everything is a plain value and a free function; the answer does
+/// not depend on the order of views, nodes or stems, nor on the number of threads.
+/// Source: L-Grammar Generator 2005, section 3.2; docs/measuring.md says how to photograph and what is reported.
+
+#include "skeleton3d/types.hpp"   // Camera, View, ClickedNode, Skeleton
+#include "skeleton3d/camera.hpp"  // plant points to pixels and back
+#include "skeleton3d/solve.hpp"   // clicks to nodes
+#include "skeleton3d/tree.hpp"    // nodes and stems to one checked tree
