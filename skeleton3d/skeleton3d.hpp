@@ -16,5 +16,6 @@
 
 #include "skeleton3d/types.hpp"   // Camera, View, ClickedNode, Skeleton
 #include "skeleton3d/camera.hpp"  // plant points to pixels and back
+#include "skeleton3d/photo.hpp"   // photo files, upright
 #include "skeleton3d/solve.hpp"   // clicks to nodes
 #include "skeleton3d/tree.hpp"    // nodes and stems to one checked tree
