@@ -1,10 +1,9 @@
 #include "organs/leaf.hpp"
 
-#include "base/table.hpp"
-#include "base/text.hpp"
 #include "organs/data.hpp"
 #include "organs/leaf_rulings.hpp"
 #include "organs/mesh_tools.hpp"
+#include "organs/shape_table.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -38,43 +37,29 @@ T wordIn(const std::array<std::pair<std::string_view, T>, N>& words, std::string
   return found->second;
 }
 
-double numberIn(const Table& table, const Table::Row& row, std::string_view column) {
-  const std::optional<double> number = parseNumber(table.cell(row, column));
-  AXIL_ASSERT(number.has_value(), "leaf_shapes.tsv has a cell that is no number");
-  return *number;
-}
-
 LeafShape shapeOf(const Table& table, const Table::Row& row) {
-  const auto number = [&](std::string_view column) { return numberIn(table, row, column); };
+  const ShapeRow cells{table, row};
   LeafShape shape;
-  shape.name = table.cell(row, "name");
-  shape.widthToLength = number("widthToLength");
-  shape.widest = number("widest");
-  shape.base = {number("baseShoulder"), number("baseEnd")};
-  shape.apex = {number("apexShoulder"), number("apexEnd")};
-  shape.baseLobes = wordIn(baseLobeWords, table.cell(row, "baseLobes"));
-  shape.baseLobeDepth = number("baseLobeDepth");
-  shape.apexNotch = number("apexNotch");
-  shape.lobes = wordIn(lobeWords, table.cell(row, "lobes"));
-  shape.lobeCount = static_cast<int>(number("lobeCount"));
-  shape.lobeDepth = number("lobeDepth");
-  shape.lobedUpTo = number("lobedUpTo");
-  shape.margin = wordIn(marginWords, table.cell(row, "margin"));
-  shape.teeth = static_cast<int>(number("teeth"));
-  shape.toothDepth = number("toothDepth");
-  shape.bend = number("bend");
-  shape.oblique = number("oblique");
-  shape.arch = number("arch");
-  shape.fold = number("fold");
+  shape.name = cells.text("name");
+  shape.widthToLength = cells.number("widthToLength");
+  shape.widest = cells.number("widest");
+  shape.base = {cells.number("baseShoulder"), cells.number("baseEnd")};
+  shape.apex = {cells.number("apexShoulder"), cells.number("apexEnd")};
+  shape.baseLobes = wordIn(baseLobeWords, cells.text("baseLobes"));
+  shape.baseLobeDepth = cells.number("baseLobeDepth");
+  shape.apexNotch = cells.number("apexNotch");
+  shape.lobes = wordIn(lobeWords, cells.text("lobes"));
+  shape.lobeCount = cells.whole("lobeCount");
+  shape.lobeDepth = cells.number("lobeDepth");
+  shape.lobedUpTo = cells.number("lobedUpTo");
+  shape.margin = wordIn(marginWords, cells.text("margin"));
+  shape.teeth = cells.whole("teeth");
+  shape.toothDepth = cells.number("toothDepth");
+  shape.bend = cells.number("bend");
+  shape.oblique = cells.number("oblique");
+  shape.arch = cells.number("arch");
+  shape.fold = cells.number("fold");
   return shape;
-}
-
-std::vector<LeafShape> readShapes() {
-  const auto table = readTable(data::leaf_shapes, "leaf_shapes.tsv");
-  AXIL_ASSERT(table.has_value(), "leaf_shapes.tsv is no table");
-  std::vector<LeafShape> shapes;
-  for (const Table::Row& row : table->rows) shapes.push_back(shapeOf(*table, row));
-  return shapes;
 }
 
 // ---- the posture: a height over the flat blade, so that what does not overlap when flat does not overlap in space
@@ -232,14 +217,12 @@ Part petioleOf(const LeafShape& shape, Detail detail) {
 }  // namespace
 
 const std::vector<LeafShape>& leafShapes() {
-  static const std::vector<LeafShape> shapes = readShapes();
+  static const std::vector<LeafShape> shapes = readShapeTable<LeafShape>(data::leaf_shapes, "leaf_shapes.tsv", shapeOf);
   return shapes;
 }
 
 std::optional<LeafShape> leafShapeNamed(std::string_view name) {
-  for (const LeafShape& shape : leafShapes())
-    if (shape.name == name) return shape;
-  return std::nullopt;
+  return namedIn(leafShapes(), name);
 }
 
 LeafShape withWidth(LeafShape shape, double widthToLength) {

@@ -16,11 +16,6 @@ constexpr double pi = std::numbers::pi;
 constexpr int samplesAnEnd = 240;  // dense enough that the chosen rulings meet the tips of lobes and teeth
 constexpr double veinSlope = 0.6;  // rise of a side vein over its run, where nothing else fixes it
 
-double endWidth(const LeafEnd& end, double u) {
-  const double inner = 1 - std::pow(1 - std::clamp(u, 0.0, 1.0), end.shoulder);
-  return end.end <= 0 ? 1 : std::pow(inner, end.end);
-}
-
 // Width of the unlobed half, 0 to 1.
 double plainWidth(const LeafShape& shape, double y) {
   return y < shape.widest ? endWidth(shape.base, y / shape.widest) : endWidth(shape.apex, (1 - y) / (1 - shape.widest));
@@ -235,6 +230,11 @@ Half withoutEmptyEnds(Half half) {
 }
 
 }  // namespace
+
+double endWidth(const LeafEnd& end, double u) {
+  const double inner = 1 - std::pow(1 - std::clamp(u, 0.0, 1.0), end.shoulder);
+  return end.end <= 0 ? 1 : std::pow(inner, end.end);
+}
 
 std::vector<Ruling> leftOf(std::vector<Ruling> right, const LeafShape& shape) {
   for (Ruling& r : right) {

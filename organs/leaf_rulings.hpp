@@ -17,6 +17,9 @@ struct Ruling {
   glm::dvec2 margin{};  ///< x >= 0, before the blade is bent sideways
 };
 
+/// Width at the share `u` of the way from an end (0) to the widest place (1), as LeafEnd defines it; 0 to 1.
+[[nodiscard]] double endWidth(const LeafEnd& end, double u);
+
 /// The right half of `shape`, from base to apex: at most `count` rulings (at least 4), dense where the margin turns.
 [[nodiscard]] std::vector<Ruling> rulingsOf(const LeafShape& shape, std::size_t count);
 /// The left half, with x >= 0 still; the same places as the right half, narrower when the blade is oblique.

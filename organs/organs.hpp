@@ -6,3 +6,5 @@
 
 #include "organs/types.hpp"   // Mesh, Part, Detail
 #include "organs/leaf.hpp"    // leaf shapes, flat outlines, curved blades
+#include "organs/flower.hpp"  // flowers from whorls of such blades
+#include "organs/fruit.hpp"   // fruits
