@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 namespace axil::simeco {
 
@@ -70,7 +71,7 @@ class Comparer {
   [[nodiscard]] bool same(const Successor& a, const Successor& b) const { return same(a.weight, b.weight) && same(a.modules, b.modules); }
   [[nodiscard]] bool same(const Production& a, const Production& b) const {
     return same(a.left, b.left) && same(a.predecessor, b.predecessor) && same(a.right, b.right) && same(a.before, b.before) &&
-           same(a.condition, b.condition) && (!a.condition || a.conditionPlace == b.conditionPlace) && same(a.after, b.after) &&
+           same(a.condition, b.condition) && same(a.after, b.after) && placeOfCondition(a_, a) == placeOfCondition(b_, b) &&
            same(a.successors, b.successors) && a.comments == b.comments;
   }
   [[nodiscard]] bool same(const ArrayDeclaration& a, const ArrayDeclaration& b) const {
@@ -81,7 +82,7 @@ class Comparer {
            same(a.productions, b.productions);
   }
   [[nodiscard]] bool same(const RuleSet& a, const RuleSet& b) const {
-    return a.label == b.label && same(a.axiom, b.axiom) && same(a.productions, b.productions) && same(a.decomposition, b.decomposition) &&
+    return labelOf(a) == labelOf(b) && same(a.axiom, b.axiom) && same(a.productions, b.productions) && same(a.decomposition, b.decomposition) &&
            same(a.homomorphism, b.homomorphism) && same(a.interaction, b.interaction) && a.filter == b.filter && a.ring == b.ring &&
            a.seed == b.seed && same(a.derivationLength, b.derivationLength) && same(a.arrays, b.arrays) && a.externals == b.externals &&
            same(a.start, b.start) && same(a.startEach, b.startEach) && same(a.endEach, b.endEach) && same(a.end, b.end) &&
@@ -101,6 +102,9 @@ class Comparer {
     return a.name == b.name && same(a.attributes, b.attributes) && same(a.organs, b.organs) && same(a.rules, b.rules) &&
            same(a.subRules, b.subRules) && a.comments == b.comments;
   }
+
+  /// An axiom without a name is `w`.
+  static std::string_view labelOf(const RuleSet& rules) { return rules.label.empty() ? std::string_view("w") : std::string_view(rules.label); }
 
   const Grammar& a_;
   const Grammar& b_;
@@ -149,6 +153,24 @@ std::optional<OrganKind> organOfLetter(const std::string& letter) {
   for (const OrganWord& organ : kOrgans)
     if (letter == organ.letter) return organ.kind;
   return std::nullopt;
+}
+
+bool isCondition(const Grammar& grammar, ExprId id) {
+  const ExprNode& node = grammar.at(id).node;
+  if (const auto* unary = std::get_if<Unary>(&node)) return unary->op == UnaryOp::Not;
+  if (const auto* binary = std::get_if<Binary>(&node)) return binary->op >= BinaryOp::Less;
+  return std::holds_alternative<Chain>(node);
+}
+
+ConditionPlace placeOfCondition(const Grammar& grammar, const Production& production) {
+  if (!production.condition || production.conditionPlace == ConditionPlace::AfterColon || !isCondition(grammar, *production.condition))
+    return ConditionPlace::AfterColon;
+  const auto holds = [](const Module& module) { return module.letter != "[" && module.letter != "]"; };
+  if (production.conditionPlace == ConditionPlace::InPredecessor)
+    return !production.predecessor.empty() && holds(production.predecessor.back()) ? ConditionPlace::InPredecessor : ConditionPlace::AfterColon;
+  const bool inSuccessor = production.successors.size() == 1 &&
+                           std::any_of(production.successors[0].modules.begin(), production.successors[0].modules.end(), holds);
+  return inSuccessor ? ConditionPlace::InSuccessor : ConditionPlace::AfterColon;
 }
 
 ExprId Grammar::add(ExprNode node, SourceSpan where) {

@@ -19,6 +19,8 @@
 
 namespace axil::simeco {
 
+struct Grammar;
+
 // ---- expressions -----------------------------------------------------------------------------------------------------
 
 struct ExprTag;
@@ -58,7 +60,8 @@ struct Binary {
   ExprId right;
 };
 
-/// `1002 < i < 1006`: every neighbouring pair must hold. `comparisons` has one entry fewer than `operands`.
+/// `1002 < i < 1006`: every neighbouring pair must hold. Three or more operands (two are a Binary); `comparisons` has one
+/// entry fewer.
 struct Chain {
   std::vector<ExprId> operands;
   std::vector<BinaryOp> comparisons;
@@ -150,7 +153,8 @@ struct Successor {
 /// `S(i, lo < i < hi) -> S(i+1)`, or `pred : condition --> succ`.
 enum class ConditionPlace { AfterColon, InSuccessor, InPredecessor };
 
-/// left < predecessor > right : {before} condition {after} -> successors. Everything but the predecessor may be empty.
+/// left < predecessor > right : {before} condition {after} -> successors. At least one predecessor and one successor, which
+/// may say nothing; everything else may be empty.
 struct Production {
   std::vector<Module> left;
   std::vector<Module> predecessor;
@@ -163,6 +167,12 @@ struct Production {
   Comments comments;
   SourceSpan where;
 };
+
+/// Whether an expression is a comparison or joins comparisons, so that as a module's last argument it is a condition.
+[[nodiscard]] bool isCondition(const Grammar& grammar, ExprId id);
+/// Where a production's condition can be printed: its own place where a module and a comparison are there for it, else
+/// after a colon.
+[[nodiscard]] ConditionPlace placeOfCondition(const Grammar& grammar, const Production& production);
 
 /// Which letters contexts pass over.
 struct ContextFilter {

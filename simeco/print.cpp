@@ -1,0 +1,503 @@
+// A Grammar as SimEco text, in the layout that the thesis' program writes.
+#include "simeco/language.hpp"
+#include "simeco/lsystem_language.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace axil::simeco {
+
+namespace {
+
+constexpr std::string_view kIndent = "    ";
+
+// What an expression is as an operand: the higher, the closer it binds.
+enum Binding { kChoice, kOr, kAnd, kCompare, kSum, kProduct, kUnary, kPower, kPrimary };
+
+struct OperatorText {
+  std::string_view text;
+  Binding binding;
+};
+// In the order of BinaryOp.
+constexpr std::array<OperatorText, 14> kOperators{{{"+", kSum}, {"-", kSum}, {"*", kProduct}, {"/", kProduct}, {"%", kProduct}, {"^", kPower},
+    {" < ", kCompare}, {" <= ", kCompare}, {" > ", kCompare}, {" >= ", kCompare}, {" == ", kCompare}, {" != ", kCompare}, {" && ", kAnd}, {" || ", kOr}}};
+
+const OperatorText& textOf(BinaryOp op) { return kOperators[static_cast<std::size_t>(op)]; }
+
+bool isTurn(const std::string& letter) { return letter == "rotr" || letter == "rotu"; }
+
+class Printer {
+ public:
+  explicit Printer(const Grammar& grammar) : grammar_(grammar) { out_.reserve(grammar.expressions.size() * 20 + 256); }
+
+  std::string file() {
+    lines(grammar_.comments.before);
+    out_ += "EcoSystem " + grammar_.version + ' ';
+    quoted(grammar_.name);
+    open(grammar_.comments);
+    attributes(grammar_.attributes);
+    for (const PlantGrammar& p : grammar_.plants) plant(p);
+    close(grammar_.comments);
+    lines(grammar_.closing);
+    return std::move(out_);
+  }
+  std::string alone(ExprId id) {
+    expression(id, kChoice);
+    return std::move(out_);
+  }
+  std::string alone(const Module& m) {
+    module(m);
+    return std::move(out_);
+  }
+
+ private:
+  // ---- lines and comments ----
+
+  void indent() {
+    for (int i = 0; i < depth_; ++i) out_ += kIndent;
+  }
+  /// A comment as it can stand in a text: one that lacks its // gets it, line by line.
+  void comment(std::string_view text) {
+    const bool block = text.size() >= 4 && text.starts_with("/*") && text.find("*/", 2) == text.size() - 2;
+    if (block || (text.starts_with("//") && text.find('\n') == std::string_view::npos)) {
+      out_ += text;
+      return;
+    }
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find('\n', begin), text.size());
+      const std::string_view line = text.substr(begin, end - begin);
+      if (begin > 0) {
+        out_ += '\n';
+        indent();
+      }
+      if (!line.starts_with("//")) out_ += line.empty() ? "//" : "// ";
+      out_ += line;
+      begin = end + 1;
+    }
+  }
+  void lines(const std::vector<std::string>& comments) {
+    for (const std::string& line : comments) {
+      if (!line.empty()) {
+        indent();
+        comment(line);
+      }
+      out_ += '\n';
+    }
+  }
+  void endLine(const std::string& rest) {
+    if (!rest.empty()) {
+      out_ += ' ';
+      comment(rest);
+    }
+    out_ += '\n';
+  }
+  void open(const Comments& comments) {
+    out_ += " {";
+    endLine(comments.opening);
+    ++depth_;
+  }
+  void close(const Comments& comments) {
+    lines(comments.inside);
+    --depth_;
+    indent();
+    out_ += '}';
+    endLine(comments.trailing);
+  }
+  // The thesis writes an empty block as {}.
+  void closeEmpty(const Comments& comments) {
+    out_ += " {}";
+    endLine(comments.trailing);
+  }
+  static bool isBare(const Comments& comments) { return comments.opening.empty() && comments.inside.empty(); }
+
+  // ---- plants ----
+
+  void quoted(std::string_view words) {
+    out_ += '"';
+    for (const char c : words) {
+      if (c == '"') out_ += '"';
+      out_ += c == '\n' || c == '\r' ? ' ' : c;  // a text is one line; check names such a text
+    }
+    out_ += '"';
+  }
+  void attributes(const std::vector<Attribute>& list) {
+    for (const Attribute& a : list) {
+      lines(a.comments.before);
+      indent();
+      out_ += a.name;
+      out_ += " = ";
+      expression(a.value, kChoice);
+      out_ += ';';
+      endLine(a.comments.trailing);
+    }
+  }
+  void plant(const PlantGrammar& p) {
+    lines(p.comments.before);
+    indent();
+    out_ += "Plant ";
+    quoted(p.name);
+    open(p.comments);
+    attributes(p.attributes);
+    for (const OrganBlock& o : p.organs) organ(o);
+    grow(p.rules);
+    for (const RuleSet& rules : p.subRules) grow(rules);
+    close(p.comments);
+  }
+  void organ(const OrganBlock& o) {
+    lines(o.comments.before);
+    indent();
+    out_ += keywordOf(o.kind);
+    if (o.attributes.empty() && o.stages.empty() && isBare(o.comments)) return closeEmpty(o.comments);
+    open(o.comments);
+    attributes(o.attributes);
+    for (const Stage& s : o.stages) stage(s);
+    close(o.comments);
+  }
+  void stage(const Stage& s) {
+    lines(s.comments.before);
+    indent();
+    out_ += "Stage " + std::to_string(s.number);
+    if (s.attributes.empty() && isBare(s.comments)) return closeEmpty(s.comments);
+    open(s.comments);
+    attributes(s.attributes);
+    close(s.comments);
+  }
+
+  // ---- rules ----
+
+  void grow(const RuleSet& rules) {
+    lines(rules.comments.before);
+    indent();
+    out_ += "Grow";
+    open(rules.comments);
+    settings(rules);
+    if (!rules.axiom.empty() || !rules.label.empty() || !rules.productions.empty()) axiom(rules);
+    for (const Production& p : rules.productions) production(p);
+    subRules("decomposition", rules.decomposition);
+    subRules("homomorphism", rules.homomorphism);
+    interaction(rules.interaction);
+    close(rules.comments);
+  }
+  void settings(const RuleSet& rules) {
+    if (rules.seed) setting("seed = " + std::to_string(*rules.seed));
+    if (rules.derivationLength) {
+      indent();
+      out_ += "steps = ";
+      expression(*rules.derivationLength, kChoice);
+      out_ += ";\n";
+    }
+    if (rules.ring) setting("ring");
+    for (const std::string& name : rules.externals) setting("external " + name);
+    for (const ArrayDeclaration& a : rules.arrays) array(a);
+    namedBlock("start", rules.start);
+    namedBlock("startEach", rules.startEach);
+    namedBlock("endEach", rules.endEach);
+    namedBlock("end", rules.end);
+    filter(rules.filter);
+  }
+  void setting(const std::string& text) {
+    indent();
+    out_ += text + ";\n";
+  }
+  void array(const ArrayDeclaration& a) {
+    indent();
+    out_ += "array " + a.name;
+    for (const int size : a.sizes) out_ += '[' + std::to_string(size) + ']';
+    if (!a.initial.empty()) {
+      out_ += " = {";
+      list(a.initial);
+      out_ += '}';
+    }
+    out_ += ";\n";
+  }
+  void namedBlock(std::string_view name, const Block& statements) {
+    if (statements.empty()) return;
+    indent();
+    out_ += name;
+    out_ += ' ';
+    block(statements);
+    out_ += '\n';
+  }
+  void filter(const ContextFilter& f) {
+    if (f.mode == ContextFilter::Mode::None) return;
+    lines(f.comments.before);
+    indent();
+    out_ += f.mode == ContextFilter::Mode::Ignore ? "ignore" : "consider";
+    for (const std::string& letter : f.letters) out_ += ' ' + letter;
+    out_ += ';';
+    endLine(f.comments.trailing);
+  }
+  void axiom(const RuleSet& rules) {
+    lines(rules.axiomComments.before);
+    indent();
+    out_ += rules.label.empty() ? "w" : rules.label;
+    out_ += " = ";
+    modules(rules.axiom);
+    out_ += ';';
+    endLine(rules.axiomComments.trailing);
+  }
+  void subRules(std::string_view name, const std::optional<SubRules>& rules) {
+    if (!rules) return;
+    indent();
+    out_ += name;
+    out_ += " {\n";
+    ++depth_;
+    setting("depth = " + std::to_string(rules->maximumDepth));
+    if (rules->seed) setting("seed = " + std::to_string(*rules->seed));
+    if (!rules->warnAtMaximumDepth) setting("quiet");
+    for (const Production& p : rules->productions) production(p);
+    --depth_;
+    indent();
+    out_ += "}\n";
+  }
+  void interaction(const std::vector<Production>& productions) {
+    if (productions.empty()) return;
+    indent();
+    out_ += "interaction {\n";
+    ++depth_;
+    for (const Production& p : productions) production(p);
+    --depth_;
+    indent();
+    out_ += "}\n";
+  }
+  void production(const Production& p) {
+    const ConditionPlace place = placeOfCondition(grammar_, p);
+    lines(p.comments.before);
+    indent();
+    if (!p.left.empty()) {
+      modules(p.left);
+      out_ += " < ";
+    }
+    modules(p.predecessor, place == ConditionPlace::InPredecessor ? carrierIn(p.predecessor, place) : nullptr, p.condition);
+    if (!p.right.empty()) {
+      out_ += " > ";
+      modules(p.right);
+    }
+    afterColon(p, place);
+    out_ += " ->";
+    for (std::size_t i = 0; i < p.successors.size(); ++i) {
+      if (i > 0) out_ += " |";
+      successor(p, p.successors[i], place);
+    }
+    out_ += " ;";
+    endLine(p.comments.trailing);
+  }
+  void afterColon(const Production& p, ConditionPlace place) {
+    const bool condition = p.condition && place == ConditionPlace::AfterColon;
+    if (!condition && p.before.empty() && p.after.empty()) return;
+    out_ += " :";
+    // Without a condition between them, a first empty block says that the second one comes after.
+    if (!p.before.empty() || (!condition && !p.after.empty())) {
+      out_ += ' ';
+      block(p.before);
+    }
+    if (condition) {
+      out_ += ' ';
+      expression(*p.condition, kChoice);
+    }
+    if (!p.after.empty()) {
+      out_ += ' ';
+      block(p.after);
+    }
+  }
+  void successor(const Production& p, const Successor& s, ConditionPlace place) {
+    if (s.weight) {
+      out_ += ' ';
+      weight(*s.weight);
+      out_ += ':';
+    }
+    if (!s.modules.empty()) out_ += ' ';
+    modules(s.modules, place == ConditionPlace::InSuccessor ? carrierIn(s.modules, place) : nullptr, p.condition);
+  }
+  void weight(ExprId id) {
+    const auto* number = std::get_if<Number>(&grammar_.at(id).node);
+    if (number && !std::signbit(number->value)) return expression(id, kChoice);
+    out_ += '(';
+    expression(id, kChoice);
+    out_ += ')';
+  }
+  /// The module that carries the condition: in a predecessor the last, in a successor the first that is not a turn.
+  static const Module* carrierIn(const std::vector<Module>& list, ConditionPlace place) {
+    if (place == ConditionPlace::InPredecessor) return &list.back();
+    const auto holds = [](const Module& m) { return m.letter != "[" && m.letter != "]"; };
+    const auto organ = std::find_if(list.begin(), list.end(), [&](const Module& m) { return holds(m) && !isTurn(m.letter); });
+    return organ != list.end() ? &*organ : &*std::find_if(list.begin(), list.end(), holds);
+  }
+  /// The thesis' blanks: none behind a turn and in what the turn moves, one elsewhere, one before [ and after ].
+  void modules(const std::vector<Module>& list, const Module* carrier = nullptr, const std::optional<ExprId>& condition = {}) {
+    bool turned = false;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const Module& m = list[i];
+      const bool opens = m.letter == "[";
+      const bool closes = m.letter == "]";
+      const bool tight = i == 0 || closes || list[i - 1].letter == "[" || (turned && !opens);
+      if (!tight) out_ += ' ';
+      turned = !opens && !closes && (turned || isTurn(m.letter));
+      module(m, &m == carrier ? condition : std::nullopt);
+    }
+  }
+  void module(const Module& m, const std::optional<ExprId>& condition = {}) {
+    out_ += m.letter;
+    if (m.arguments.empty() && !condition) return;
+    out_ += '(';
+    bool first = true;
+    for (const ExprId argument : m.arguments) {
+      if (!std::exchange(first, false)) out_ += ", ";
+      // Bare, a comparison would be the rule's condition.
+      expression(argument, isCondition(grammar_, argument) ? kPrimary : kChoice);
+    }
+    if (condition) {
+      if (!first) out_ += ", ";
+      expression(*condition, kChoice);
+    }
+    out_ += ')';
+  }
+
+  // ---- statements ----
+
+  void block(const Block& statements) {
+    out_ += '{';
+    for (const Statement& s : statements) {
+      out_ += ' ';
+      std::visit([this](const auto& node) { statement(node); }, s.node);
+    }
+    out_ += " }";
+  }
+  void statement(const Assign& s) {
+    out_ += s.name + " = ";
+    expression(s.value, kChoice);
+    out_ += ';';
+  }
+  void statement(const AssignElement& s) {
+    element(s.array, s.indices);
+    out_ += " = ";
+    expression(s.value, kChoice);
+    out_ += ';';
+  }
+  void statement(const Evaluate& s) {
+    expression(s.value, kChoice);
+    out_ += ';';
+  }
+  void statement(const If& s) {
+    out_ += "if (";
+    expression(s.condition, kChoice);
+    out_ += ") ";
+    block(s.yes);
+    if (s.no.empty()) return;
+    out_ += " else ";
+    block(s.no);
+  }
+  void statement(const While& s) {
+    out_ += s.testFirst ? "while (" : "do ";
+    if (!s.testFirst) {
+      block(s.body);
+      out_ += " while (";
+    }
+    expression(s.condition, kChoice);
+    out_ += s.testFirst ? ") " : ");";
+    if (s.testFirst) block(s.body);
+  }
+
+  // ---- expressions ----
+
+  /// `id` where something that binds at least as `least` is needed; parentheses where it binds less.
+  void expression(ExprId id, Binding least) {
+    const ExprNode& node = grammar_.at(id).node;
+    const bool enclosed = bindingOf(node) < least;
+    if (enclosed) out_ += '(';
+    std::visit([this](const auto& n) { expression(n); }, node);
+    if (enclosed) out_ += ')';
+  }
+  static Binding bindingOf(const ExprNode& node) {
+    if (const auto* number = std::get_if<Number>(&node)) return std::signbit(number->value) ? kUnary : kPrimary;
+    if (const auto* binary = std::get_if<Binary>(&node)) return textOf(binary->op).binding;
+    if (std::holds_alternative<Chain>(node)) return kCompare;
+    if (std::holds_alternative<Unary>(node)) return kUnary;
+    return std::holds_alternative<Conditional>(node) ? kChoice : kPrimary;
+  }
+  static Binding above(Binding binding) { return static_cast<Binding>(binding + 1); }
+
+  void expression(const Number& n) { out_ += simeco::textOf(n); }
+  void expression(const Name& n) { out_ += n.name; }
+  void expression(const Text& n) { quoted(n.text); }
+  void expression(const Unary& n) {
+    out_ += n.op == UnaryOp::Minus ? '-' : '!';
+    // -(5) is a minus before a literal, -5 is a literal.
+    const bool literal = std::holds_alternative<Number>(grammar_.at(n.operand).node);
+    if (!literal || n.op == UnaryOp::Not) return expression(n.operand, kUnary);
+    out_ += '(';
+    expression(n.operand, kChoice);
+    out_ += ')';
+  }
+  void expression(const Binary& n) {
+    const OperatorText& sign = textOf(n.op);
+    if (n.op == BinaryOp::Power) {  // binds to the right, and a minus may follow it
+      expression(n.left, kPrimary);
+      out_ += sign.text;
+      return expression(n.right, kUnary);
+    }
+    expression(n.left, sign.binding == kCompare ? kSum : sign.binding);
+    out_ += sign.text;
+    const bool arithmetic = sign.binding == kSum || sign.binding == kProduct;
+    const auto* number = std::get_if<Number>(&grammar_.at(n.right).node);
+    const bool negative = arithmetic && number && std::signbit(number->value);
+    expression(n.right, negative ? kPrimary : above(sign.binding));
+  }
+  void expression(const Chain& n) {
+    for (std::size_t i = 0; i < n.operands.size(); ++i) {
+      if (i > 0) out_ += textOf(n.comparisons[i - 1]).text;
+      expression(n.operands[i], kSum);
+    }
+  }
+  void expression(const Conditional& n) {
+    expression(n.condition, kOr);
+    out_ += " ? ";
+    expression(n.yes, kChoice);
+    out_ += " : ";
+    expression(n.no, kChoice);
+  }
+  void expression(const Call& n) {
+    out_ += n.function;
+    out_ += '(';
+    list(n.arguments);
+    out_ += ')';
+  }
+  void expression(const Element& n) { element(n.array, n.indices); }
+  void element(const std::string& name, const std::vector<ExprId>& indices) {
+    out_ += name;
+    for (const ExprId index : indices) {
+      out_ += '[';
+      expression(index, kChoice);
+      out_ += ']';
+    }
+  }
+  void list(const std::vector<ExprId>& ids) {
+    bool first = true;
+    for (const ExprId id : ids) {
+      if (!std::exchange(first, false)) out_ += ", ";
+      expression(id, kChoice);
+    }
+  }
+
+  const Grammar& grammar_;
+  std::string out_;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+std::string print(const Grammar& grammar) {
+  return grammar.language == Language::LSystem ? printLSystem(grammar) : Printer(grammar).file();
+}
+
+std::string printExpression(const Grammar& grammar, ExprId id) {
+  return grammar.language == Language::LSystem ? printLSystemExpression(grammar, id) : Printer(grammar).alone(id);
+}
+
+std::string printModule(const Grammar& grammar, const Module& module) {
+  return grammar.language == Language::LSystem ? printLSystemModule(grammar, module) : Printer(grammar).alone(module);
+}
+
+}  // namespace axil::simeco

@@ -1,0 +1,64 @@
+#pragma once
+/// \file
+/// Vocabulary: the words that SimEco knows, as tables. Internal; docs/simeco.md is the same for people.
+
+#include "simeco/grammar.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace axil::simeco {
+
+/// Which block an attribute belongs into; a bit each.
+enum Place : std::uint8_t { InEcosystem = 1, InPlant = 2, InOrgan = 4 };
+
+/// What an attribute's value is.
+enum class ValueKind : std::uint8_t {
+  Any,
+  Number,       ///< any number
+  NotNegative,  ///< a number, 0 or more
+  Positive,     ///< a number above 0
+  Words,        ///< a quoted text
+  Vector,       ///< vector(x, y, z)
+  Colour,       ///< RGBA(r, g, b, a)
+  Material,     ///< MTRL(...), six numbers
+  Response,     ///< response(x1, y1, x2, y2, ...)
+};
+
+struct AttributeWord {
+  std::string_view name;
+  std::uint8_t places;
+  ValueKind kind;
+  bool since11;  ///< not in SimEco 1.0
+};
+[[nodiscard]] std::span<const AttributeWord> attributeWords();
+
+struct FunctionWord {
+  std::string_view name;
+  int fewest;
+  int most;        ///< -1: any number
+  bool since11;
+};
+[[nodiscard]] std::span<const FunctionWord> functionWords();
+
+struct LetterWord {
+  std::string_view letter;
+  int fewest;      ///< arguments
+  int most;        ///< in version 1.1; in 1.0 it is `fewest`
+  bool since11;
+};
+[[nodiscard]] std::span<const LetterWord> letterWords();
+
+/// The organ whose block `word` opens ("Stem").
+[[nodiscard]] std::optional<OrganKind> organOfKeyword(std::string_view word);
+
+inline constexpr std::string_view kVersions[] = {"1.0", "1.1"};
+
+/// Stated limits of the text.
+inline constexpr std::size_t kMostBytes = 100'000'000;
+inline constexpr int kMostDepth = 200;         ///< of nested expressions, statements
+inline constexpr int kMostBrackets = 1000;     ///< of nested branches in one rule
+
+}  // namespace axil::simeco
