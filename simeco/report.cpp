@@ -35,6 +35,9 @@ void Report::warning(SourceSpan span, std::string message, std::string hint) {
 // Errors push warnings out, never the other way round: a file with an error must always show one.
 void Report::add(Diagnostic diagnostic) {
   const bool isError = diagnostic.severity == Severity::Error;
+  // A parser that looks at a place a second time finds the same thing there.
+  const std::size_t look = std::min<std::size_t>(kept_.size(), 4);
+  if (std::find(kept_.end() - static_cast<std::ptrdiff_t>(look), kept_.end(), diagnostic) != kept_.end()) return;
   if (kept_.size() < kMostDiagnostics) {
     warnings_ += isError ? 0 : 1;
     kept_.push_back(std::move(diagnostic));

@@ -1,12 +1,8 @@
 #include "simeco/vocabulary.hpp"
 
-#include <array>
-
 namespace axil::simeco {
 
 namespace {
-
-constexpr std::uint8_t kAnywhere = InEcosystem | InPlant | InOrgan;
 
 constexpr AttributeWord kAttributes[] = {
     // The whole ecosystem; a plant may say its own.
@@ -46,7 +42,6 @@ constexpr AttributeWord kAttributes[] = {
     {"WitherTime", InPlant | InOrgan, ValueKind::NotNegative, true},
     {"FallTime", InPlant | InOrgan, ValueKind::NotNegative, true},
     {"UnfoldTime", InPlant | InOrgan, ValueKind::NotNegative, true},
-    {"Comment", kAnywhere, ValueKind::Words, false},
 };
 
 constexpr FunctionWord kFunctions[] = {
