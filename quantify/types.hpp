@@ -42,7 +42,9 @@ enum class SegmentKind { Root, Main, Branch };
 struct LeafMeasure {
   Angle rotr;           ///< between the segment's direction and the leaf's
   Angle rotu;           ///< around the segment
-  Angle roll;           ///< of the blade about its own direction, from adaxial side towards the stem
+  Angle roll;           ///< of the blade about its own direction, away from facing the segment's tip
+  PlantDirection direction = PlantDirection::up();                  ///< the same leaf as it stands in the plant's frame
+  PlantDirection normal = PlantDirection::along({0, 0, 1});         ///< its adaxial side, perpendicular to `direction`
   double length = 0;    ///< of the blade
   double width = 0;
   double petiole = 0;   ///< length of the stalk; 0: sessile
@@ -67,12 +69,14 @@ struct Segment {
   std::vector<LeafMeasure> leaves;   ///< that leave from its tip
 };
 
-/// A whole plant as numbers. Segments come parent before child: level by level, then in the order of their stems, so the
-/// first is the root segment.
+/// A whole plant as numbers. Segments come parent before child: level by level, then by their stem's id; the first is the
+/// root segment. A plant that divides at its collar has further segments of level 0: branches without a parent, measured
+/// against the root segment's frame, as are the leaves that stand at the collar.
 struct Measurements {
   std::string unit = "m";
   PlantPoint origin;                  ///< where the root node stands
-  std::vector<Segment> segments;
+  std::vector<Segment> segments;      ///< never empty
+  std::vector<LeafMeasure> rootLeaves;  ///< leaves that leave from the root node
 
   [[nodiscard]] const Segment& at(SegmentId id) const { return segments[static_cast<std::size_t>(id.value)]; }
 };

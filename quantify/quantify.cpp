@@ -1,1 +1,0 @@
-#include "quantify/types.hpp"

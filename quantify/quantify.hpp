@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// quantify: a measured skeleton becomes numbers that a grammar can carry.
+///
+/// A description names how leaves stand and a user says where: `withLeaves` gives them places on the skeleton. `measure`
+/// then walks the tree as the thesis does: the length of each segment, its level from the root, its parent and children,
+/// whether it goes on as the main stem or branches off, and the two angles rotr and rotu by which it leaves its parent. The
+/// same turning rule (base/turning.hpp) grows the plant again, so the numbers lose nothing. `segmentsCsv` hands them to other
+/// programs, `templatesOf` and `orderStatistics` say what is alike in them, for the grammars that predict and summarise.
+/// Source: L-Grammar Generator 2005, sections 3.2.3 and 3.3.
+
+#include "quantify/types.hpp"       // Segment, LeafMeasure, Measurements, LeafArrangement
+#include "quantify/leaves.hpp"      // arrangements become leaves
+#include "quantify/measure.hpp"     // a skeleton becomes numbers
+#include "quantify/csv.hpp"         // numbers as a table
+#include "quantify/statistics.hpp"  // ranges, templates, branching orders
