@@ -19,3 +19,4 @@
 #include "skeleton3d/photo.hpp"   // photo files, upright
 #include "skeleton3d/solve.hpp"   // clicks to nodes
 #include "skeleton3d/tree.hpp"    // nodes and stems to one checked tree
+#include "skeleton3d/estimate.hpp"  // cameras nobody calibrated
