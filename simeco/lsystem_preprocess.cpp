@@ -1,0 +1,739 @@
+#include "simeco/lsystem_preprocess.hpp"
+
+#include "base/text.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace axil::simeco {
+
+namespace {
+
+constexpr int kIncludeDepth = 16;
+constexpr int kMacroDepth = 64;
+constexpr int kConditionDepth = 64;
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isNameStart(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool isNamePart(char c) { return isNameStart(c) || isDigit(c); }
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
+
+SourceSpan spanOf(std::size_t begin, std::size_t end) {
+  return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(std::max(begin, end))};
+}
+
+std::size_t skipBlanks(std::string_view text, std::size_t at) {
+  while (at < text.size() && isBlank(text[at])) ++at;
+  return at;
+}
+
+std::string_view trimmed(std::string_view text) {
+  std::size_t begin = skipBlanks(text, 0);
+  std::size_t end = text.size();
+  while (end > begin && isBlank(text[end - 1])) --end;
+  return text.substr(begin, end - begin);
+}
+
+std::string_view nameAt(std::string_view text, std::size_t at) {
+  std::size_t end = at;
+  if (end < text.size() && isNameStart(text[end]))
+    while (end < text.size() && isNamePart(text[end])) ++end;
+  return text.substr(at, end - at);
+}
+
+/// End of the quoted text that starts at `at`, or nothing if it is not closed on its line (then it is a letter).
+std::optional<std::size_t> quotedEnd(std::string_view text, std::size_t at) {
+  for (std::size_t i = at + 1; i < text.size() && text[i] != '\n'; ++i) {
+    if (text[i] == '\\' && i + 1 < text.size() && text[i + 1] != '\n') ++i;
+    else if (text[i] == '"') return i + 1;
+  }
+  return std::nullopt;
+}
+
+/// End of the C number that starts at `at`: it swallows letters and signed exponents, so no macro is seen inside.
+std::size_t numberEnd(std::string_view text, std::size_t at) {
+  std::size_t i = at;
+  while (i < text.size() && (isNamePart(text[i]) || text[i] == '.')) {
+    const bool exponent = text[i] == 'e' || text[i] == 'E';
+    ++i;
+    if (exponent && i + 1 < text.size() && (text[i] == '+' || text[i] == '-') && isDigit(text[i + 1])) ++i;
+  }
+  return i;
+}
+
+/// A text without comments, joined lines and carriage returns, and where its bytes came from.
+struct Clean {
+  std::string text;
+  std::vector<std::pair<std::size_t, std::size_t>> moves;  ///< from byte `first` on, byte b came from b - first + second
+  std::vector<PlacedComment> comments;
+  std::optional<SourceSpan> openComment;
+
+  [[nodiscard]] std::size_t originOf(std::size_t at) const {
+    auto after = std::upper_bound(moves.begin(), moves.end(), std::pair{at, static_cast<std::size_t>(-1)});
+    if (after == moves.begin()) return at;
+    --after;
+    return at - after->first + after->second;
+  }
+};
+
+class Cleaner {
+ public:
+  explicit Cleaner(std::string_view text) : text_(text) { clean_.text.reserve(text.size()); }
+
+  Clean run() {
+    clean_.moves.emplace_back(0, 0);
+    while (at_ < text_.size()) step();
+    return std::move(clean_);
+  }
+
+ private:
+  void step() {
+    const char c = text_[at_];
+    const char next = at_ + 1 < text_.size() ? text_[at_ + 1] : '\0';
+    if (c == '\r' && (next == '\n' || at_ + 1 == text_.size())) return skip(1);
+    if (c == '\\' && (next == '\n' || (next == '\r' && at_ + 2 < text_.size() && text_[at_ + 2] == '\n'))) return skip(next == '\n' ? 2 : 3);
+    if (c == '/' && next == '*') return comment(text_.find("*/", at_ + 2), 2);
+    if (c == '/' && next == '/') return comment(std::min(text_.find('\n', at_), text_.size()), 0);
+    if (c == '"') {
+      if (const auto end = quotedEnd(text_, at_)) return copy(*end - at_);
+    }
+    if (c == '\n') ownLine_ = true;
+    else if (!isBlank(c)) ownLine_ = false;
+    copy(1);
+  }
+
+  void copy(std::size_t count) {
+    clean_.text.append(text_.substr(at_, count));
+    at_ += count;
+  }
+
+  void skip(std::size_t count) {
+    at_ += count;
+    clean_.moves.emplace_back(clean_.text.size(), at_);
+  }
+
+  void comment(std::size_t end, std::size_t closing) {
+    const std::size_t begin = at_;
+    if (end == std::string_view::npos) {
+      clean_.openComment = spanOf(begin, begin + 2);
+      end = text_.size();
+      closing = 0;
+    }
+    std::string words(text_.substr(begin, end + closing - begin));
+    std::erase(words, '\r');
+    clean_.comments.push_back({clean_.text.size(), std::move(words), ownLine_});
+    if (closing != 0) clean_.text.push_back(' ');
+    at_ = end + closing;
+    clean_.moves.emplace_back(clean_.text.size(), at_);
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  bool ownLine_ = true;
+  Clean clean_;
+};
+
+struct Macro {
+  std::string body;
+  bool takesArguments = false;
+  std::vector<std::string> parameters;
+};
+
+using Macros = std::map<std::string, Macro, std::less<>>;
+
+/// The arguments of a macro use whose `(` stands at `open`, and where the text goes on.
+struct MacroArguments {
+  std::vector<std::string> values;
+  std::size_t end = 0;
+};
+
+std::optional<MacroArguments> argumentsAt(std::string_view text, std::size_t open) {
+  MacroArguments found;
+  std::string value;
+  int depth = 0;
+  for (std::size_t i = open; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '(' && depth++ == 0) continue;
+    if (c == ')' && --depth == 0) {
+      found.values.emplace_back(trimmed(value));
+      found.end = i + 1;
+      return found;
+    }
+    if (c == ',' && depth == 1) {
+      found.values.emplace_back(trimmed(value));
+      value.clear();
+    } else {
+      value.push_back(c == '\n' ? ' ' : c);
+    }
+  }
+  return std::nullopt;
+}
+
+/// Replaces macros in a text that has no places any more: a macro's body or argument.
+class Expander {
+ public:
+  Expander(const Macros& macros, std::size_t limit) : macros_(macros), limit_(limit) {}
+
+  std::string expand(std::string_view text) {
+    if (++depth_ > kMacroDepth) {
+      problem_ = "macros are nested more than " + std::to_string(kMacroDepth) + " deep here";
+      --depth_;
+      return {};
+    }
+    std::string out;
+    for (std::size_t i = 0; i < text.size() && problem_.empty();) i = token(text, i, out);
+    --depth_;
+    return out;
+  }
+
+  /// What the use of macro `name` stands for, with `arguments` as written.
+  std::string use(const std::string& name, const Macro& macro, const std::vector<std::string>& arguments) {
+    if (!macro.takesArguments) return body(name, macro.body);
+    if (!argumentsFit(name, macro, arguments)) return {};
+    std::map<std::string, std::string, std::less<>> values;
+    for (std::size_t i = 0; i < macro.parameters.size(); ++i) values[macro.parameters[i]] = expand(arguments[i]);
+    return body(name, withArguments(macro.body, values));
+  }
+
+  [[nodiscard]] const std::string& problem() const { return problem_; }
+
+ private:
+  std::size_t token(std::string_view text, std::size_t at, std::string& out) {
+    const char c = text[at];
+    if (c == '"')
+      if (const auto end = quotedEnd(text, at)) return keep(text, at, *end, out);
+    if (isDigit(c) || (c == '.' && at + 1 < text.size() && isDigit(text[at + 1]))) return keep(text, at, numberEnd(text, at), out);
+    if (!isNameStart(c)) return keep(text, at, at + 1, out);
+    const std::string name(nameAt(text, at));
+    const std::size_t after = at + name.size();
+    const auto macro = macros_.find(name);
+    if (macro == macros_.end() || active_.contains(name)) return keep(text, at, after, out);
+    if (!macro->second.takesArguments) {
+      add(out, use(name, macro->second, {}));
+      return after;
+    }
+    const std::size_t open = skipBlanks(text, after);
+    if (open >= text.size() || text[open] != '(') return keep(text, at, after, out);
+    const auto arguments = argumentsAt(text, open);
+    if (!arguments) {
+      problem_ = "the use of macro " + name + " is not closed";
+      return text.size();
+    }
+    add(out, use(name, macro->second, arguments->values));
+    return arguments->end;
+  }
+
+  std::size_t keep(std::string_view text, std::size_t begin, std::size_t end, std::string& out) {
+    out.append(text.substr(begin, end - begin));
+    return end;
+  }
+
+  void add(std::string& out, const std::string& more) {
+    // Blanks keep the replaced text from growing together with its neighbours.
+    out.append(" ").append(more).append(" ");
+    made_ += more.size() + 2;
+    if (made_ > limit_) problem_ = "macros make more than " + std::to_string(limit_) + " bytes of text";
+  }
+
+  std::string body(const std::string& name, std::string_view text) {
+    active_.insert(name);
+    std::string result = expand(text);
+    active_.erase(name);
+    return result;
+  }
+
+  bool argumentsFit(const std::string& name, const Macro& macro, const std::vector<std::string>& arguments) {
+    const bool none = macro.parameters.empty() && arguments.size() == 1 && arguments[0].empty();
+    if (none || arguments.size() == macro.parameters.size()) return true;
+    problem_ = "macro " + name + " takes " + std::to_string(macro.parameters.size()) + " arguments, not " + std::to_string(arguments.size());
+    return false;
+  }
+
+  static std::string withArguments(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size();) {
+      std::size_t end = i + 1;
+      if (isNameStart(text[i])) end = i + nameAt(text, i).size();
+      else if (isDigit(text[i])) end = numberEnd(text, i);
+      const std::string_view word = text.substr(i, end - i);
+      const auto value = values.find(word);
+      out.append(value == values.end() ? word : std::string_view(value->second));
+      i = end;
+    }
+    return out;
+  }
+
+  const Macros& macros_;
+  std::size_t limit_;
+  std::size_t made_ = 0;
+  int depth_ = 0;
+  std::set<std::string, std::less<>> active_;
+  std::string problem_;
+};
+
+/// The value of an `#if` line: whole numbers, C's operators, names that are no macros count as 0.
+class ConditionReader {
+ public:
+  explicit ConditionReader(std::string_view text) : text_(text) {}
+
+  std::optional<std::int64_t> value() {
+    const std::int64_t result = choice();
+    skip();
+    if (at_ != text_.size()) bad_ = true;
+    return bad_ ? std::nullopt : std::optional(result);
+  }
+
+ private:
+  struct Operator {
+    std::string_view text;
+    int level;
+  };
+
+  void skip() { at_ = skipBlanks(text_, at_); }
+  bool eat(std::string_view token) {
+    skip();
+    if (!text_.substr(at_).starts_with(token)) return false;
+    at_ += token.size();
+    return true;
+  }
+
+  std::int64_t choice() {
+    const std::int64_t condition = binary(0);
+    if (!eat("?")) return condition;
+    const std::int64_t yes = choice();
+    if (!eat(":")) bad_ = true;
+    const std::int64_t no = choice();
+    return condition != 0 ? yes : no;
+  }
+
+  std::optional<Operator> operatorAbove(int level) {
+    static constexpr Operator kOperators[] = {{"||", 0}, {"&&", 1}, {"==", 2}, {"!=", 2}, {"<=", 3}, {">=", 3}, {"<", 3},
+                                              {">", 3},  {"+", 4},  {"-", 4},  {"*", 5},  {"/", 5},  {"%", 5}};
+    skip();
+    for (const Operator& op : kOperators)
+      if (text_.substr(at_).starts_with(op.text)) return op.level >= level ? std::optional(op) : std::nullopt;
+    return std::nullopt;
+  }
+
+  std::int64_t binary(int level) {
+    std::int64_t left = unary();
+    while (!bad_) {
+      const auto op = operatorAbove(level);
+      if (!op) break;
+      at_ += op->text.size();
+      left = applied(op->text, left, binary(op->level + 1));
+    }
+    return left;
+  }
+
+  std::int64_t applied(std::string_view op, std::int64_t a, std::int64_t b) {
+    const auto ua = static_cast<std::uint64_t>(a);
+    const auto ub = static_cast<std::uint64_t>(b);
+    if (op == "||") return a != 0 || b != 0;
+    if (op == "&&") return a != 0 && b != 0;
+    if (op == "==") return a == b;
+    if (op == "!=") return a != b;
+    if (op == "<=") return a <= b;
+    if (op == ">=") return a >= b;
+    if (op == "<") return a < b;
+    if (op == ">") return a > b;
+    if (op == "+") return static_cast<std::int64_t>(ua + ub);
+    if (op == "-") return static_cast<std::int64_t>(ua - ub);
+    if (op == "*") return static_cast<std::int64_t>(ua * ub);
+    if (b == 0 || (b == -1)) {
+      if (b == 0) bad_ = true;
+      return op == "%" ? 0 : static_cast<std::int64_t>(0 - ua);
+    }
+    return op == "/" ? a / b : a % b;
+  }
+
+  std::int64_t unary() {
+    if (++depth_ > kConditionDepth) {
+      bad_ = true;
+      return 0;
+    }
+    std::int64_t result = 0;
+    if (eat("!")) result = unary() == 0;
+    else if (eat("-")) result = static_cast<std::int64_t>(0 - static_cast<std::uint64_t>(unary()));
+    else if (eat("+")) result = unary();
+    else result = primary();
+    --depth_;
+    return result;
+  }
+
+  std::int64_t primary() {
+    if (eat("(")) {
+      const std::int64_t inner = choice();
+      if (!eat(")")) bad_ = true;
+      return inner;
+    }
+    skip();
+    if (const std::string_view name = nameAt(text_, at_); !name.empty()) {
+      at_ += name.size();
+      return 0;
+    }
+    if (at_ >= text_.size() || !isDigit(text_[at_])) {
+      bad_ = true;
+      return 0;
+    }
+    std::uint64_t number = 0;
+    while (at_ < text_.size() && isDigit(text_[at_])) number = number * 10 + static_cast<std::uint64_t>(text_[at_++] - '0');
+    if (at_ < text_.size() && (isNamePart(text_[at_]) || text_[at_] == '.')) bad_ = true;
+    return static_cast<std::int64_t>(number);
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
+  bool bad_ = false;
+};
+
+}  // namespace
+
+const Preprocessed::Piece& Preprocessed::pieceAt(std::size_t offset) const {
+  const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), offset, [](std::size_t at, const Piece& p) { return at < p.at; });
+  return after == pieces_.begin() ? pieces_.front() : *std::prev(after);
+}
+
+SourceSpan Preprocessed::originOf(std::size_t begin, std::size_t end) const {
+  const Piece& first = pieceAt(begin);
+  if (first.file != 0) return files_[static_cast<std::size_t>(first.file)].includedAt;
+  SourceSpan span = first.origin;
+  if (first.verbatim) span.begin += static_cast<std::uint32_t>(begin - first.at);
+  span.end = std::max(first.verbatim ? span.begin : span.end, span.begin);
+  if (end <= begin) return first.verbatim ? span : SourceSpan{span.begin, span.end};
+  const Piece& last = pieceAt(end - 1);
+  if (last.file != 0) return span;
+  const std::uint32_t lastEnd = last.verbatim ? last.origin.begin + static_cast<std::uint32_t>(end - last.at) : last.origin.end;
+  span.end = std::max(span.begin, lastEnd);
+  return span;
+}
+
+Diagnostic Preprocessed::diagnostic(Severity severity, std::size_t begin, std::size_t end, std::string message, std::string hint) const {
+  const Piece& piece = pieceAt(begin);
+  const File& file = files_[static_cast<std::size_t>(piece.file)];
+  if (piece.file != 0) {
+    const auto offset = static_cast<std::uint32_t>(piece.origin.begin + (piece.verbatim ? begin - piece.at : 0));
+    message = "in " + file.name + ", line " + std::to_string(placeOf(file.text, offset).line) + ": " + message;
+  }
+  return {severity, originOf(begin, end), std::move(message), std::move(hint)};
+}
+
+/// Runs over the outermost text and, from there, over what it includes.
+class Preprocessor {
+ public:
+  Preprocessor(std::string_view text, const LSystemOptions& options) : options_(options), limit_(text.size() + options.macroTextLimit) {
+    result_.files_.push_back({});
+    result_.text.reserve(text.size());
+  }
+
+  Preprocessed run(std::string_view text) {
+    process(text, 0);
+    // So that the end of the text has a place, too.
+    result_.pieces_.push_back({result_.text.size(), spanOf(text.size(), text.size()), true, 0});
+    joinTabbedLines();
+    return std::move(result_);
+  }
+
+ private:
+  /// The state of one #if: whether its lines count, and whether one of its branches has counted already.
+  struct Branch {
+    bool counts = true;
+    bool done = true;
+    bool elseSeen = false;
+    SourceSpan where;
+  };
+
+  void process(std::string_view text, std::int32_t file) {
+    const std::int32_t outerFile = std::exchange(file_, file);
+    const Clean clean = Cleaner(text).run();
+    const std::size_t outerBranches = branches_.size();
+    std::size_t comment = 0;
+    for (std::size_t at = 0; at < clean.text.size() && !full_;) at = line(clean, at, comment);
+    takeComments(clean, comment, clean.text.size(), 0);
+    if (clean.openComment) error(*clean.openComment, "this comment is never closed", "end it with */");
+    while (branches_.size() > outerBranches) {
+      error(branches_.back().where, "this #if has no #endif", "add a line #endif");
+      branches_.pop_back();
+    }
+    file_ = outerFile;
+  }
+
+  std::size_t line(const Clean& clean, std::size_t begin, std::size_t& comment) {
+    std::size_t end = std::min(clean.text.find('\n', begin), clean.text.size());
+    const std::size_t next = std::min(end + 1, clean.text.size());
+    const std::string_view words = std::string_view(clean.text).substr(begin, end - begin);
+    const std::size_t hash = skipBlanks(words, 0);
+    if (isDirective(words, hash)) {
+      takeComments(clean, comment, next, result_.text.size());
+      directive(words.substr(hash + 1), SourceSpan(spanOf(clean.originOf(begin + hash), clean.originOf(end))));
+      return next;
+    }
+    if (!counting()) {
+      while (comment < clean.comments.size() && clean.comments[comment].at < next) ++comment;
+      return next;
+    }
+    return copyLine(clean, begin, next, comment);
+  }
+
+  static bool isDirective(std::string_view words, std::size_t hash) {
+    if (hash >= words.size() || words[hash] != '#') return false;
+    if (hash == 0) return true;
+    static const std::set<std::string_view> kNames{"define", "undef", "include", "if", "ifdef", "ifndef", "elif", "else", "endif", "pragma", "error", "warning"};
+    return kNames.contains(nameAt(words, skipBlanks(words, hash + 1)));
+  }
+
+  std::size_t copyLine(const Clean& clean, std::size_t begin, std::size_t end, std::size_t& comment) {
+    const std::string_view text = clean.text;
+    std::size_t done = begin;
+    std::size_t at = begin;
+    while (at < end && !full_) {
+      const char c = text[at];
+      if (c == '"') {
+        const auto close = quotedEnd(text, at);
+        at = close ? *close : at + 1;
+      } else if (isDigit(c) || (c == '.' && at + 1 < end && isDigit(text[at + 1]))) {
+        at = numberEnd(text, at);
+      } else if (!isNameStart(c)) {
+        ++at;
+      } else {
+        const std::string_view name = nameAt(text, at);
+        const auto macro = macros_.find(name);
+        const std::size_t after = at + name.size();
+        const std::size_t open = skipBlanks(text, after);
+        const bool used = macro != macros_.end() && (!macro->second.takesArguments || (open < text.size() && text[open] == '('));
+        if (used) {
+          copy(clean, done, at, comment);
+          at = done = expandAt(clean, at, macro->first, macro->second, open);
+          if (at > end) end = std::min(text.find('\n', at) == std::string_view::npos ? text.size() : text.find('\n', at) + 1, text.size());
+        } else {
+          at = after;
+        }
+      }
+    }
+    copy(clean, done, end, comment);
+    return end;
+  }
+
+  std::size_t expandAt(const Clean& clean, std::size_t at, const std::string& name, const Macro& macro, std::size_t open) {
+    std::size_t end = at + name.size();
+    std::vector<std::string> arguments;
+    if (macro.takesArguments) {
+      auto found = argumentsAt(clean.text, open);
+      if (!found) {
+        error(spanOf(clean.originOf(at), clean.originOf(end)), "the use of macro " + name + " is not closed", "add the missing )");
+        return end;
+      }
+      arguments = std::move(found->values);
+      end = found->end;
+    }
+    const SourceSpan where = spanOf(clean.originOf(at), clean.originOf(end));
+    Expander expander(macros_, limit_);
+    const std::string made = " " + expander.use(name, macro, arguments) + " ";
+    if (!expander.problem().empty()) error(where, expander.problem(), {});
+    if (result_.text.size() + made.size() > limit_) {
+      error(where, "macros and includes make more than " + std::to_string(options_.macroTextLimit) + " bytes of text", {});
+      full_ = true;
+      return end;
+    }
+    result_.pieces_.push_back({result_.text.size(), where, false, file_});
+    result_.text += made;
+    return end;
+  }
+
+  void copy(const Clean& clean, std::size_t begin, std::size_t end, std::size_t& comment) {
+    if (begin >= end) return;
+    takeComments(clean, comment, end, result_.text.size() - begin);
+    if (result_.text.size() + (end - begin) > limit_) {
+      error(spanOf(clean.originOf(begin), clean.originOf(end)), "macros and includes make more than " + std::to_string(options_.macroTextLimit) + " bytes of text", {});
+      full_ = true;
+      return;
+    }
+    // Each stretch between two removed things is a piece of its own.
+    auto move = std::upper_bound(clean.moves.begin(), clean.moves.end(), std::pair{begin, static_cast<std::size_t>(-1)});
+    for (std::size_t from = begin; from < end;) {
+      const std::size_t to = move == clean.moves.end() ? end : std::min(end, move->first);
+      if (to > from) addPiece(clean.originOf(from));
+      result_.text.append(clean.text, from, to - from);
+      from = to;
+      if (move != clean.moves.end()) ++move;
+    }
+  }
+
+  void addPiece(std::size_t origin) {
+    if (!result_.pieces_.empty()) {
+      const auto& last = result_.pieces_.back();
+      if (last.verbatim && last.file == file_ && last.origin.begin + (result_.text.size() - last.at) == origin) return;
+    }
+    result_.pieces_.push_back({result_.text.size(), spanOf(origin, origin), true, file_});
+  }
+
+  /// Comments before byte `end` of the clean text; `shift` (modulo the word) leads to their place in the result.
+  void takeComments(const Clean& clean, std::size_t& comment, std::size_t end, std::size_t shift) {
+    for (; comment < clean.comments.size() && clean.comments[comment].at < end; ++comment) {
+      PlacedComment placed = clean.comments[comment];
+      placed.at = std::min(placed.at + shift, result_.text.size() + (end - placed.at));
+      result_.comments.push_back(std::move(placed));
+    }
+    if (end == clean.text.size())
+      for (; comment < clean.comments.size(); ++comment) {
+        PlacedComment placed = clean.comments[comment];
+        placed.at = result_.text.size();
+        result_.comments.push_back(std::move(placed));
+      }
+  }
+
+  void directive(std::string_view words, SourceSpan where) {
+    const std::size_t at = skipBlanks(words, 0);
+    const std::string_view name = nameAt(words, at);
+    const std::string_view rest = trimmed(words.substr(at + name.size()));
+    if (name == "if" || name == "ifdef" || name == "ifndef") return openBranch(name, rest, where);
+    if (name == "elif" || name == "else") return nextBranch(name, rest, where);
+    if (name == "endif") return closeBranch(where);
+    if (!counting()) return;
+    if (name == "define") return define(rest, where);
+    if (name == "undef") return undefine(rest);
+    if (name == "include") return include(rest, where);
+    if (name == "error") return error(where, "#error " + std::string(rest), {});
+    if (name == "pragma" || name == "warning" || (name.empty() && rest.empty())) return;
+    error(where, "a line that starts with # is a directive, and this is none of define, undef, include, if, ifdef, ifndef, elif, else, endif",
+          "to begin a rule with the letter #, write * < # --> ...");
+  }
+
+  [[nodiscard]] bool counting() const { return branches_.empty() || branches_.back().counts; }
+
+  void openBranch(std::string_view name, std::string_view rest, SourceSpan where) {
+    const bool outer = counting();
+    bool holds = false;
+    if (outer) holds = name == "if" ? conditionOf(rest, where) : macros_.contains(nameAt(rest, 0)) == (name == "ifdef");
+    if (outer && name != "if" && nameAt(rest, 0).empty()) error(where, "#" + std::string(name) + " needs the name of a macro", {});
+    branches_.push_back({outer && holds, !outer || holds, false, where});
+  }
+
+  void nextBranch(std::string_view name, std::string_view rest, SourceSpan where) {
+    if (branches_.empty() || branches_.back().elseSeen) return error(where, "#" + std::string(name) + " without #if", {});
+    Branch& branch = branches_.back();
+    branch.elseSeen = name == "else";
+    branch.counts = !branch.done && (name == "else" || conditionOf(rest, where));
+    branch.done = branch.done || branch.counts;
+  }
+
+  void closeBranch(SourceSpan where) {
+    if (branches_.empty()) return error(where, "#endif without #if", {});
+    branches_.pop_back();
+  }
+
+  bool conditionOf(std::string_view text, SourceSpan where) {
+    Expander expander(macros_, limit_);
+    const std::string expanded = expander.expand(withDefinedReplaced(text));
+    const auto value = expander.problem().empty() ? ConditionReader(expanded).value() : std::nullopt;
+    if (!value) error(where, "this #if is not a whole-number condition", {});
+    return value.value_or(0) != 0;
+  }
+
+  /// `defined X` and `defined(X)` as 1 or 0, before X is replaced.
+  [[nodiscard]] std::string withDefinedReplaced(std::string_view text) const {
+    std::string out;
+    for (std::size_t i = 0; i < text.size();) {
+      const std::string_view name = nameAt(text, i);
+      if (name != "defined") {
+        const std::size_t count = std::max<std::size_t>(name.size(), 1);
+        out.append(text.substr(i, count));
+        i += count;
+        continue;
+      }
+      i = skipBlanks(text, i + name.size());
+      const bool inside = i < text.size() && text[i] == '(';
+      if (inside) i = skipBlanks(text, i + 1);
+      const std::string_view asked = nameAt(text, i);
+      i = skipBlanks(text, i + asked.size());
+      if (inside && i < text.size() && text[i] == ')') ++i;
+      out.append(macros_.contains(asked) ? " 1 " : " 0 ");
+    }
+    return out;
+  }
+
+  void define(std::string_view rest, SourceSpan where) {
+    const std::string name(nameAt(rest, 0));
+    if (name.empty()) return error(where, "#define needs the name of a macro", "a name starts with a letter");
+    Macro macro;
+    std::string_view body = rest.substr(name.size());
+    if (!body.empty() && body[0] == '(') {
+      const std::size_t close = body.find(')');
+      if (close == std::string_view::npos) return error(where, "the parameters of macro " + name + " are not closed", "add the missing )");
+      macro.takesArguments = true;
+      if (!parametersOf(body.substr(1, close - 1), macro.parameters)) return error(where, "a parameter of macro " + name + " is not a name", {});
+      body.remove_prefix(close + 1);
+    }
+    macro.body = trimmed(body);
+    const auto old = macros_.find(name);
+    if (old != macros_.end() && old->second.body != macro.body)
+      result_.diagnostics.push_back(placed(Severity::Warning, where, "macro " + name + " is defined again, differently", "#undef it first"));
+    macros_.insert_or_assign(name, std::move(macro));
+  }
+
+  static bool parametersOf(std::string_view list, std::vector<std::string>& names) {
+    if (trimmed(list).empty()) return true;
+    while (true) {
+      const std::size_t comma = std::min(list.find(','), list.size());
+      const std::string_view name = trimmed(list.substr(0, comma));
+      if (name.empty() || nameAt(name, 0).size() != name.size()) return false;
+      names.emplace_back(name);
+      if (comma == list.size()) return true;
+      list.remove_prefix(comma + 1);
+    }
+  }
+
+  void undefine(std::string_view rest) {
+    const auto macro = macros_.find(nameAt(rest, 0));
+    if (macro != macros_.end()) macros_.erase(macro);
+  }
+
+  void include(std::string_view rest, SourceSpan where) {
+    const bool quoted = rest.size() > 2 && rest.front() == '"' && rest.back() == '"';
+    if (!quoted) return error(where, "#include needs a file name in quotes", "#include \"name\"");
+    const std::string name(rest.substr(1, rest.size() - 2));
+    if (!options_.include) return error(where, "this text cannot include " + name, "read the grammar from a file, so that its folder is known");
+    if (includeDepth_ >= kIncludeDepth) return error(where, "includes are nested more than " + std::to_string(kIncludeDepth) + " deep", "does a file include itself?");
+    Result<std::string> text = options_.include(name);
+    if (!text) return error(where, text.error().message, {});
+    const SourceSpan outermost = file_ == 0 ? where : result_.files_[static_cast<std::size_t>(file_)].includedAt;
+    result_.files_.push_back({name, *text, outermost});
+    ++includeDepth_;
+    process(*text, static_cast<std::int32_t>(result_.files_.size()) - 1);
+    --includeDepth_;
+    if (!result_.text.empty() && result_.text.back() != '\n') result_.text.push_back('\n');
+  }
+
+  Diagnostic placed(Severity severity, SourceSpan where, std::string message, std::string hint) const {
+    const auto& file = result_.files_[static_cast<std::size_t>(file_)];
+    if (file_ == 0) return {severity, where, std::move(message), std::move(hint)};
+    message = "in " + file.name + ", line " + std::to_string(placeOf(file.text, where.begin).line) + ": " + message;
+    return {severity, file.includedAt, std::move(message), std::move(hint)};
+  }
+
+  void error(SourceSpan where, std::string message, std::string hint) {
+    result_.diagnostics.push_back(placed(Severity::Error, where, std::move(message), std::move(hint)));
+  }
+
+  void joinTabbedLines() {
+    std::string& text = result_.text;
+    for (std::size_t i = text.find("\n\t"); i != std::string::npos; i = text.find("\n\t", i + 1)) text[i] = ' ';
+  }
+
+  const LSystemOptions& options_;
+  std::size_t limit_;
+  Macros macros_;
+  std::vector<Branch> branches_;
+  Preprocessed result_;
+  std::int32_t file_ = 0;
+  int includeDepth_ = 0;
+  bool full_ = false;
+};
+
+Preprocessed preprocessLSystem(std::string_view text, const LSystemOptions& options) { return Preprocessor(text, options).run(text); }
+
+}  // namespace axil::simeco
