@@ -21,6 +21,8 @@ namespace axil::skeleton3d {
 namespace {
 
 constexpr std::size_t kFewestSharedNodes = 4;
+constexpr double kMostTurned_deg = 45;
+constexpr double kMostTypicalMiss = 0.01;  // of the photo's longer side
 constexpr double kFlatFocalInverse = 1e-3;  // of the first guess: beyond a thousand times its distance a camera counts as orthographic
 
 /// What is adjusted of an unknown camera: u = c + (s x + a) / (1 + k z), where (x, y, z) is the node turned into the view
@@ -302,6 +304,14 @@ Failure doNotFit(const std::string& why) {
   return fail(ErrorCode::NoAnswer, "the views do not fit together" + why + "; check that front, right and top are not exchanged, no photo is mirrored, and the same points are clicked in each");
 }
 
+/// A focal length so short that the plant would reach into the camera is no place to start from.
+void keepInFront(Unknown& camera, const std::vector<Point>& points) {
+  double nearest = 0;  // along the view, from the origin towards the camera
+  for (const Point& point : points) nearest = std::max(nearest, -(camera.nominal * glm::dvec3{point.at[0], point.at[1], point.at[2]}).z);
+  const double reach = nearest * std::exp(camera.values[kLogScale]) / camera.focal_px;  // share of the camera's distance
+  if (reach > 0.5) camera.values[kFocalInverse] = 0.5 / reach;
+}
+
 Result<void> guess(Bundle& bundle) {
   const FarProblem far = farProblemOf(bundle);
   const std::vector<double> solution = solvedFar(far, bundle);
@@ -315,6 +325,8 @@ Result<void> guess(Bundle& bundle) {
     unknown.values = {0, 0, 0, origin.x, origin.y, -std::log(q), 1};
   }
   for (Point& point : bundle.points) placePoint(far, solution, point);
+  for (Unknown& camera : bundle.cameras)
+    if (!camera.known) keepInFront(camera, bundle.points);
   return {};
 }
 
@@ -510,11 +522,47 @@ double typical(const std::vector<Miss>& misses) {
 
 /// Further off than clicks that scatter about as these do ever are: five standard deviations, of which the median of a
 /// distance in the plane is 1.18, some of it lost to the fit.
-std::vector<SuspectClick> suspectsOf(const std::vector<Miss>& misses, const std::vector<View>& views, const EstimateOptions& options) {
-  const double limit = std::max(5 * options.click_px, 6 * typical(misses) / 1.18);
+double suspicionLimit(const std::vector<Miss>& misses, const EstimateOptions& options) { return std::max(5 * options.click_px, 6 * typical(misses) / 1.18); }
+
+ClickedNode clickedAgain(const Point& point, const std::vector<View>& views) {
+  ClickedNode node{point.id, {}, std::nullopt};
+  for (const Click& click : point.clicks) node.clicks[views[click.view].name] = {click.px};
+  return node;
+}
+
+/// How far `view`'s click is from where the other clicks put the node; nothing where these do not agree among themselves.
+std::optional<double> offFromOthers(ClickedNode node, const std::string& view, const std::vector<View>& views, double limit_px) {
+  const PhotoPoint click = node.clicks.at(view);
+  node.clicks.erase(view);
+  const auto solved = solveNodes(views, std::span(&node, 1), {.maxReprojection_px = limit_px});
+  if (!solved) return std::nullopt;
+  return glm::length(project(detail::findView(views, view)->camera, solved->front().position).px - click.px);
+}
+
+/// Of a node whose clicks do not agree: every click without which the others do. Where several would explain it (an error along
+/// a direction that only two views see) all of them are named; where none does, or there are only two clicks, all are.
+std::vector<SuspectClick> suspectsOf(const Point& point, const std::vector<View>& views, double limit_px) {
+  const ClickedNode node = clickedAgain(point, views);
   std::vector<SuspectClick> suspects;
-  for (const Miss& miss : misses)
-    if (miss.off_px > limit) suspects.push_back({miss.node, views[miss.view].name, miss.off_px});
+  for (const auto& [view, click] : node.clicks)
+    if (const auto off = offFromOthers(node, view, views, limit_px)) suspects.push_back({node.id, view, *off});
+  if (!suspects.empty()) return suspects;
+  const glm::dvec3 at{point.at[0], point.at[1], point.at[2]};
+  for (const auto& [view, click] : node.clicks) suspects.push_back({node.id, view, glm::length(project(detail::findView(views, view)->camera, {at}).px - click.px)});
+  return suspects;
+}
+
+std::vector<SuspectClick> suspectsOf(const Bundle& bundle, const std::vector<View>& views, const std::vector<Miss>& misses, const EstimateOptions& options) {
+  const double limit_px = suspicionLimit(misses, options);
+  std::vector<SuspectClick> suspects;
+  std::size_t next = 0;
+  for (const Point& point : bundle.points) {
+    double worst = 0;
+    for (std::size_t i = 0; i < point.clicks.size(); ++i) worst = std::max(worst, misses[next++].off_px);
+    if (worst <= limit_px) continue;
+    const auto own = suspectsOf(point, views, limit_px);
+    suspects.insert(suspects.end(), own.begin(), own.end());
+  }
   return suspects;
 }
 
@@ -526,6 +574,17 @@ CameraReport reportOf(const Unknown& camera, const View& view, const std::vector
   report.typical_px = typical(own);
   report.clicks = own.size();
   return report;
+}
+
+Result<void> checkReports(const Bundle& bundle, const std::vector<CameraReport>& reports) {
+  for (const CameraReport& report : reports) {
+    const auto camera = std::find_if(bundle.cameras.begin(), bundle.cameras.end(), [&](const Unknown& c) { return c.view.name == report.view; });
+    const int longer = std::max(camera->view.size_px.x, camera->view.size_px.y);
+    if (report.typical_px > kMostTypicalMiss * longer) return doNotFit(": the clicks of view '" + report.view + "' are typically " + fixed(report.typical_px, 0) + " px off");
+    if (report.turned.degrees() > kMostTurned_deg)
+      return doNotFit(": view '" + report.view + "' would have to be turned by " + fixed(report.turned.degrees(), 0) + " degrees from what its name says");
+  }
+  return {};
 }
 
 // ---- the known length -------------------------------------------------------------------------------------------------
@@ -607,14 +666,6 @@ Result<void> adjusted(Bundle& bundle, const EstimateOptions& options) {
   return {};
 }
 
-Result<void> checkFit(const Bundle& bundle, const std::vector<Miss>& misses) {
-  int longest = 0;
-  for (const Unknown& camera : bundle.cameras) longest = std::max({longest, camera.view.size_px.x, camera.view.size_px.y});
-  const double off = typical(misses);
-  if (longest > 0 && off > 0.02 * longest) return doNotFit(": their clicks are typically " + fixed(off, 0) + " px off");
-  return {};
-}
-
 }  // namespace
 
 Result<EstimatedCameras> estimateCameras(std::span<const View> views, const std::map<std::string, UnknownCameraHints>& hints, std::span<const ClickedNode> nodes,
@@ -629,10 +680,11 @@ Result<EstimatedCameras> estimateCameras(std::span<const View> views, const std:
 
   std::vector<View> found = viewsOf(*bundle);
   const std::vector<Miss> misses = missesOf(*bundle, found);
-  if (const auto fits = checkFit(*bundle, misses); !fits) return fits.failure();
-  EstimatedCameras estimated{{}, {}, suspectsOf(misses, found, options)};
+  EstimatedCameras estimated;
   for (std::size_t v = 0; v < found.size(); ++v)
     if (!bundle->cameras[v].known) estimated.reports.push_back(reportOf(bundle->cameras[v], found[v], misses, v));
+  if (const auto fits = checkReports(*bundle, estimated.reports); !fits) return fits.failure();
+  estimated.suspects = suspectsOf(*bundle, found, misses, options);
   if (!bundle->scaleIsKnown) {
     const auto ratio = trueScale(*bundle, found);
     if (!ratio) return ratio.failure();
@@ -643,10 +695,12 @@ Result<EstimatedCameras> estimateCameras(std::span<const View> views, const std:
 }
 
 std::vector<ClickedNode> withoutSuspects(std::span<const ClickedNode> nodes, std::span<const SuspectClick> suspects) {
+  std::vector<SuspectClick> worstFirst(suspects.begin(), suspects.end());
+  std::stable_sort(worstFirst.begin(), worstFirst.end(), [](const SuspectClick& a, const SuspectClick& b) { return a.off_px > b.off_px; });
   std::vector<ClickedNode> kept(nodes.begin(), nodes.end());
-  for (const SuspectClick& suspect : suspects)
+  for (const SuspectClick& suspect : worstFirst)
     for (ClickedNode& node : kept)
-      if (node.id == suspect.node) node.clicks.erase(suspect.view);
+      if (node.id == suspect.node && node.clicks.size() > 2) node.clicks.erase(suspect.view);
   return kept;
 }
 

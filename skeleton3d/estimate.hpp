@@ -46,11 +46,12 @@ struct CameraReport {
   friend bool operator==(const CameraReport&, const CameraReport&) = default;
 };
 
-/// A click that fits the others badly: look at it again.
+/// A click that may be wrong: without it the node's other clicks agree. Where two clicks could equally be the wrong one both
+/// are named; where no single one explains it, all clicks of the node.
 struct SuspectClick {
   NodeId node;
   std::string view;
-  double off_px = 0;
+  double off_px = 0;  ///< from where the other clicks put the node (or, all being named, from the best place)
 
   friend bool operator==(const SuspectClick&, const SuspectClick&) = default;
 };
@@ -63,11 +64,11 @@ struct EstimatedCameras {
 
 /// Fails with NoAnswer or BadInput, saying for which view: a name without a nominal direction, unknown photo size, fewer
 /// than four nodes shared with other views, no origin in any view, no known length (or one that is not above zero, or
-/// clicked in one place), views that do not fit together at all (exchanged, mirrored). Nodes need not all be good.
+/// clicked in one place), views that do not fit together (exchanged, mirrored, turned by more than 45 degrees). Nodes need not all be good.
 [[nodiscard]] Result<EstimatedCameras> estimateCameras(std::span<const View> views, const std::map<std::string, UnknownCameraHints>& hints,
                                                        std::span<const ClickedNode> nodes, const EstimateOptions& options = {});
 
-/// The nodes without their suspect clicks.
+/// The nodes without their suspect clicks, the furthest off first, as long as two clicks are left of a node.
 [[nodiscard]] std::vector<ClickedNode> withoutSuspects(std::span<const ClickedNode> nodes, std::span<const SuspectClick> suspects);
 
 }  // namespace axil::skeleton3d
