@@ -1,0 +1,79 @@
+#include "simeco/derive.hpp"
+
+#include "simeco/engine.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace axil::simeco {
+
+namespace {
+
+int threadsFor(const DeriveOptions& options) {
+  if (options.threads > 0) return std::min(options.threads, 64);
+  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 64u));
+}
+
+/// The origins of the string after a step, from those before it.
+std::vector<Origin> stepped(const std::vector<Origin>& before, const StepTrace& trace, std::int64_t step) {
+  std::vector<Origin> after(trace.begin.back());
+  for (std::size_t i = 0; i < trace.rule.size(); ++i)
+    for (std::size_t module = trace.begin[i]; module < trace.begin[i + 1]; ++module)
+      after[module] = trace.rule[i] == StepTrace::copied ? before[i] : Origin{trace.rule[i], static_cast<std::int32_t>(step)};
+  return after;
+}
+
+/// As Engine::run, noting where every module comes from.
+Result<Engine::Outcome> runTraced(Engine& engine, const DeriveOptions& options, std::optional<std::int64_t> count, Derivation& derivation) {
+  derivation.origins.assign(engine.string().size(), Origin{});
+  StepTrace trace;
+  while (!count || engine.stepsDone() < *count) {
+    if (engine.stepsDone() >= options.limits.steps) return engine.tooManySteps();
+    const auto outcome = engine.step(&trace);
+    if (!outcome) return outcome.failure();
+    if (*outcome == Engine::Outcome::Settled) return Engine::Outcome::Settled;
+    derivation.origins = stepped(derivation.origins, trace, engine.stepsDone());
+    derivation.modulesPerStep.push_back(engine.string().size());
+  }
+  return Engine::Outcome::Changed;
+}
+
+}  // namespace
+
+Result<Derivation> derive(const Grammar& grammar, const DeriveOptions& options) {
+  auto program = compile(grammar, options.plant, {options.limits.expressionDepth});
+  if (!program) return program.failure();
+  const EngineOptions engineOptions{.seed = options.seed,
+                                    .limits = options.limits,
+                                    .watch = options.watch,
+                                    .threads = threadsFor(options),
+                                    .singlePrecision = options.singlePrecision,
+                                    .host = options.host};
+  auto engine = Engine::create(*std::move(program), engineOptions);
+  if (!engine) return engine.failure();
+  Derivation derivation;
+  derivation.threads = engineOptions.threads;
+  const auto begin = std::chrono::steady_clock::now();
+  if (auto started = (*engine)->start(); !started) return started.failure();
+  const std::optional<std::int64_t> count = options.steps ? options.steps : (*engine)->ownLength();
+  if (count && *count < 0) return fail(ErrorCode::BadInput, "a derivation cannot have " + std::to_string(*count) + " steps");
+  const auto outcome = options.traced ? runTraced(**engine, options, count, derivation) : (*engine)->run(count, derivation.modulesPerStep);
+  if (!outcome) return outcome.failure();
+  derivation.settled = *outcome == Engine::Outcome::Settled;
+  derivation.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (auto finished = (*engine)->finish(); !finished) return finished.failure();
+  derivation.string = (*engine)->string();
+  derivation.variables = (*engine)->variables();
+  derivation.peakBytes = (*engine)->peakBytes();
+  derivation.warnings = (*engine)->warnings();
+  derivation.engine = *engine;
+  return derivation;
+}
+
+Result<Image> imageOf(const Derivation& derivation) {
+  if (!derivation.engine) return fail(ErrorCode::BadInput, "an image needs a derivation, and nothing has been derived");
+  return derivation.engine->image();
+}
+
+}  // namespace axil::simeco

@@ -1,0 +1,269 @@
+#include "simeco/engine.hpp"
+
+#include "simeco/engine_state.hpp"
+
+#include <algorithm>
+
+namespace axil::simeco {
+
+namespace {
+
+/// Bytes of everything a step holds at once.
+std::size_t held(const Engine::State& s) {
+  return s.string.bytes() + s.spare.codes.bytes() + s.spare.parameters.bytes() + s.around.bytes();
+}
+
+std::string stepText(std::int64_t step) { return "in step " + std::to_string(step + 1); }
+
+bool hasStatements(const RuleTable& table) {
+  return std::any_of(table.rules.begin(), table.rules.end(), [](const CompiledRule& rule) { return rule.statements; });
+}
+
+bool hasHeaders(const System& system) { return !system.startEach.empty() || !system.endEach.empty(); }
+
+bool sameArrays(const ModuleString& string, const Arrays& other) {
+  return string.size() == other.codes.size() && string.parameters().size() == other.parameters.size() &&
+         std::equal(string.codes().begin(), string.codes().end(), other.codes.data()) &&
+         (other.parameters.size() == 0 ||
+          std::memcmp(string.parameters().data(), other.parameters.data(), other.parameters.size() * sizeof(double)) == 0);
+}
+
+/// What the rules of a program allow: whether a string that stays can ever change again, and by chance.
+void describeRules(Engine::State& s) {
+  s.timeless = !s.options.host.betweenSteps;
+  for (const System& system : s.program->systems) {
+    s.timeless = s.timeless && !hasHeaders(system);
+    for (const RuleTable* table : {&system.productions, &system.decomposition}) {
+      s.timeless = s.timeless && !hasStatements(*table);
+      for (const CompiledRule& rule : table->rules) {
+        s.drawsConditions = s.drawsConditions || rule.randomCondition;
+        s.drawsResults = s.drawsResults || rule.random || system.stochastic;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+// ---- Engine::State ---------------------------------------------------------------------------------------------------
+
+Failure Engine::State::failure(const Error& error, const CompiledRule* rule) const {
+  if (error.code == ErrorCode::Cancelled) return fail(error);
+  const std::string where = rule == nullptr ? "" : ", by the rule " + rule->name;
+  return fail(error.code, error.message + " " + stepText(steps) + where);
+}
+
+Failure Engine::State::tooMany(const char* what, std::size_t limit, const CompiledRule* rule) const {
+  std::string message = "the derivation would need more than " + std::to_string(limit) + " " + what + " " + stepText(steps);
+  const auto most = std::max_element(fired.begin(), fired.end());
+  if (most != fired.end() && *most > 0) rule = &program->main().productions.rules[static_cast<std::size_t>(most - fired.begin())];
+  if (rule != nullptr) message += "; the rule that was growing it is " + rule->name;
+  return fail(ErrorCode::LimitReached, message + "; derive fewer steps or raise the limit");
+}
+
+Result<void> Engine::State::mayGoOn() const {
+  if (options.watch.cancelled()) return fail(ErrorCode::Cancelled, "the derivation was cancelled");
+  if (!shared.late()) return {};
+  const std::string limit = std::to_string(static_cast<std::int64_t>(options.limits.seconds));
+  return fail(ErrorCode::LimitReached, "the derivation took longer than its limit of " + limit + " s, " + stepText(steps) +
+                                           "; derive fewer steps or raise the limit");
+}
+
+void Engine::State::note(const std::string& text) {
+  if (std::find(notes.begin(), notes.end(), text) == notes.end()) notes.push_back(text);
+}
+
+Result<void> Engine::State::runHeader(const Code& code, Instance& instance, std::uint64_t which) {
+  if (code.empty()) return {};
+  Machine& m = machine();
+  m.setInstance(&instance, &program->systems[instance.system]);
+  m.setRandom(stream(Stream::Header, static_cast<std::uint64_t>(steps), which));
+  m.run(code, nullptr);
+  if (m.newSeed) random = Rng(*m.newSeed);
+  m.newSeed.reset();
+  if (m.trouble()) return failure(*m.trouble(), nullptr);
+  return {};
+}
+
+Result<void> Engine::State::startInstance(Instance& instance) {
+  const System& system = program->systems[instance.system];
+  instance.globals.assign(system.globals.size(), 0);
+  instance.elements.assign(system.arrayElements, 0);
+  instance.started = true;
+  Machine& m = machine();
+  m.setInstance(&instance, &system);
+  for (const ArrayLayout& array : system.arrays)
+    for (std::size_t i = 0; i < array.initial.size(); ++i) instance.elements[array.first + i] = m.value(array.initial[i], nullptr);
+  if (m.trouble()) return failure(*m.trouble(), nullptr);
+  return runHeader(system.start, instance, 1);
+}
+
+void Engine::State::notePeak(std::size_t more) { peak = std::max(peak, held(*this) + more); }
+
+// ---- Engine ----------------------------------------------------------------------------------------------------------
+
+Engine::Engine(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Engine::~Engine() = default;
+
+Result<std::shared_ptr<Engine>> Engine::create(std::shared_ptr<const Program> program, EngineOptions options) {
+  auto state = std::make_unique<State>();
+  State& s = *state;
+  s.program = std::move(program);
+  s.options = std::move(options);
+  s.shared = {s.program.get(), &s.options.limits, &s.options.watch, &s.options.host, {}};
+  const double seconds = std::clamp(s.options.limits.seconds, 0.0, 1e8);
+  s.shared.deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
+  for (int i = 0; i < std::max(1, s.options.threads); ++i) s.machines.emplace_back(s.shared);
+  s.random = Rng(s.options.seed);
+  s.needs = needsOf(*s.program);
+  s.walking = s.program->systems.size() > 1;
+  s.needs.brackets = s.needs.brackets || s.walking;
+  s.fired.assign(s.program->main().productions.rules.size(), 0);
+  for (const System& system : s.program->systems) s.fired.resize(std::max(s.fired.size(), system.productions.rules.size()));
+  describeRules(s);
+  s.plain = false;
+  return std::shared_ptr<Engine>(new Engine(std::move(state)));
+}
+
+Result<void> Engine::start() {
+  State& s = *state_;
+  s.string = ModuleString(s.program->symbols);
+  s.steps = 0;
+  s.main = {};
+  s.visits.clear();
+  if (auto done = s.startInstance(s.main); !done) return done;
+  const System& main = s.program->main();
+  Machine& m = s.machine();
+  m.setInstance(&s.main, &main);
+  m.setRandom(s.stream(Stream::Axiom, 0));
+  s.string.codeBuffer().assign(main.axiomCodes);
+  for (const Term& term : main.axiomTerms) {
+    const double value = m.value(term, nullptr);
+    s.string.parameterBuffer().push(s.options.singlePrecision ? static_cast<double>(static_cast<float>(value)) : value);
+    if (!m.trouble() && s.program->language == Language::SimEco && !std::isfinite(value)) m.giveUp(ErrorCode::NoAnswer, "a parameter that is not a finite number");
+    if (m.trouble()) return fail(m.trouble()->code, m.trouble()->message + " in the axiom");
+  }
+  if (main.derivationLength) {
+    const double length = m.value(*main.derivationLength, nullptr);
+    if (m.trouble() || !(length >= 0) || length > 1e15)
+      return fail(ErrorCode::BadGrammar, "the derivation length must be a whole number of at least 0");
+    s.wantedLength = static_cast<std::int64_t>(length);
+  }
+  m.length = s.wantedLength.value_or(0);
+  s.random = m.newSeed ? Rng(*m.newSeed) : s.random;
+  m.newSeed.reset();
+  s.notePeak(0);
+  return s.findVisits();
+}
+
+Result<Engine::Outcome> Engine::step(StepTrace* trace) {
+  State& s = *state_;
+  if (auto go = s.mayGoOn(); !go) return go.failure();
+  if (s.options.host.betweenSteps) {
+    HostStep view(*this);
+    if (auto done = s.options.host.betweenSteps(view); !done) return done.failure();
+  }
+  const System& main = s.program->main();
+  if (auto done = s.runHeader(main.startEach, s.main, 2); !done) return done.failure();
+  std::fill(s.fired.begin(), s.fired.end(), 0);
+  s.spare.codes.clear();
+  s.spare.parameters.clear();
+  const auto fired = s.generalStep(trace);
+  if (!fired) return fired.failure();
+  s.notePeak(0);
+  if (held(s) > s.options.limits.bytes) return s.tooMany("bytes", s.options.limits.bytes, nullptr);
+  const bool still = s.timeless && !s.drawsConditions && (*fired == 0 || (!s.drawsResults && sameArrays(s.string, s.spare)));
+  if (still) return Outcome::Settled;
+  s.string.codeBuffer().swap(s.spare.codes);
+  s.string.parameterBuffer().swap(s.spare.parameters);
+  if (auto done = s.runHeader(main.endEach, s.main, 3); !done) return done.failure();
+  Machine& m = s.machine();
+  if (m.newSeed) s.random = Rng(*m.newSeed);
+  m.newSeed.reset();
+  s.stopped = s.stopped || m.stopAsked;
+  ++s.steps;
+  return Outcome::Changed;
+}
+
+Result<Engine::Outcome> Engine::run(std::optional<std::int64_t> count, std::vector<std::size_t>& modulesPerStep) {
+  State& s = *state_;
+  const Limits& limits = s.options.limits;
+  Machine& m = s.machine();
+  const auto wanted = [&] { return m.newLength ? m.newLength : count; };
+  while (!s.stopped && (!wanted() || s.steps < *wanted())) {
+    if (s.steps >= limits.steps) return tooManySteps();
+    const auto outcome = step();
+    if (!outcome) return outcome.failure();
+    if (*outcome == Outcome::Settled) {
+      if (!count) return Outcome::Settled;
+      // The remaining steps change nothing: they are only counted.
+      if (*count > limits.steps) return tooManySteps();
+      modulesPerStep.resize(static_cast<std::size_t>(*count), s.string.size());
+      s.steps = *count;
+      return Outcome::Settled;
+    }
+    modulesPerStep.push_back(s.string.size());
+    const double known = wanted() ? static_cast<double>(*wanted()) : static_cast<double>(limits.steps);
+    s.options.watch.report("deriving", static_cast<double>(s.steps) / std::max(1.0, known));
+  }
+  return Outcome::Changed;
+}
+
+Failure Engine::tooManySteps() const { return state_->tooMany("steps", static_cast<std::size_t>(state_->options.limits.steps), nullptr); }
+
+Result<void> Engine::finish() {
+  State& s = *state_;
+  if (s.steps > 0)
+    if (auto done = s.runHeader(s.program->main().end, s.main, 4); !done) return done;
+  if (!s.options.host.betweenSteps) return {};
+  HostStep view(*this);
+  return s.options.host.betweenSteps(view);
+}
+
+Result<Image> Engine::image() const { return state_->makeImage(); }
+
+const ModuleString& Engine::string() const { return state_->string; }
+std::span<double> Engine::parameters() { return {state_->string.parameterBuffer().data(), state_->string.parameterBuffer().size()}; }
+std::int64_t Engine::stepsDone() const { return state_->steps; }
+std::optional<std::int64_t> Engine::ownLength() const { return state_->wantedLength; }
+std::size_t Engine::peakBytes() const { return state_->peak; }
+const Program& Engine::program() const { return *state_->program; }
+
+std::vector<std::string> Engine::warnings() const {
+  std::vector<std::string> all = state_->program->warnings;
+  all.insert(all.end(), state_->notes.begin(), state_->notes.end());
+  std::size_t clamped = 0;
+  for (const Machine& machine : state_->machines) clamped += machine.clampedIndices;
+  if (clamped > 0) all.push_back(std::to_string(clamped) + " array indices were outside their array; the nearest element was taken");
+  return all;
+}
+
+std::map<std::string, double> Engine::variables() const {
+  std::map<std::string, double> values;
+  const std::vector<std::string>& names = state_->program->main().globals;
+  for (std::size_t i = 0; i < names.size() && i < state_->main.globals.size(); ++i) values[names[i]] = state_->main.globals[i];
+  return values;
+}
+
+bool Engine::setVariable(std::string_view name, double value) {
+  const std::vector<std::string>& names = state_->program->main().globals;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return false;
+  state_->main.globals[static_cast<std::size_t>(found - names.begin())] = value;
+  return true;
+}
+
+// ---- HostStep --------------------------------------------------------------------------------------------------------
+
+std::int64_t HostStep::step() const { return engine_.stepsDone(); }
+const ModuleString& HostStep::string() const { return engine_.string(); }
+std::span<double> HostStep::parameters() { return engine_.parameters(); }
+Result<Image> HostStep::image() const { return engine_.image(); }
+std::optional<double> HostStep::variable(std::string_view name) const {
+  const auto values = engine_.variables();
+  const auto found = values.find(std::string(name));
+  return found == values.end() ? std::nullopt : std::optional(found->second);
+}
+bool HostStep::setVariable(std::string_view name, double value) { return engine_.setVariable(name, value); }
+
+}  // namespace axil::simeco

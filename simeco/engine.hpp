@@ -1,0 +1,79 @@
+#pragma once
+/// \file
+/// Engine: one plant's string and the rules that rewrite it, step by step. `derive` and `prepareGrowth` are the doors to it;
+/// it is of use alone to whoever needs every step (growth, tracing).
+///
+/// A step reads the old string and writes the new one beside it; both buffers are kept. Grammars without statements, cuts,
+/// sub-L-systems, rings, decomposition and predecessors of several modules take the *plain* way: rules are chosen for all
+/// modules, sizes are added up, then everything is written at its place, each part by any number of threads. The others take
+/// the *general* way, one module after the other, since statements make the order count.
+
+#include "simeco/derive.hpp"
+#include "simeco/program.hpp"
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace axil::simeco {
+
+/// What became of every module of the string before a step.
+struct StepTrace {
+  static constexpr std::int32_t copied = -1;
+  static constexpr std::int32_t removed = -2;   ///< cut off
+  static constexpr std::int32_t consumed = -3;  ///< a further module of the predecessor before it
+  std::vector<std::int32_t> rule;               ///< production number, or one of the above
+  std::vector<std::uint32_t> begin;             ///< first module that it became, one more entry than `rule`
+};
+
+struct EngineOptions {
+  std::uint64_t seed = 1;
+  Limits limits = {};
+  Watch watch = {};
+  int threads = 1;
+  bool singlePrecision = false;
+  bool generalWay = false;       ///< always take the general way; tests compare both
+  Host host = {};
+};
+
+class Engine {
+ public:
+  static Result<std::shared_ptr<Engine>> create(std::shared_ptr<const Program> program, EngineOptions options);
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// Array initialisers, Start, axiom.
+  Result<void> start();
+  enum class Outcome { Changed, Settled };
+  /// One step. Settled: the string stays as it is, for ever; then the step does not count. A trace needs the general way.
+  Result<Outcome> step(StepTrace* trace = nullptr);
+  /// `count` steps, or until settled without a count; appends the modules after each to `modulesPerStep`.
+  Result<Outcome> run(std::optional<std::int64_t> count, std::vector<std::size_t>& modulesPerStep);
+  /// The End block, and the last call of the host.
+  Result<void> finish();
+
+  /// The error for a derivation that needs more steps than its limit, with the rule that was growing.
+  [[nodiscard]] Failure tooManySteps() const;
+  [[nodiscard]] Result<Image> image() const;
+
+  [[nodiscard]] const ModuleString& string() const;
+  [[nodiscard]] ModuleString takeString();
+  [[nodiscard]] std::span<double> parameters();
+  [[nodiscard]] std::int64_t stepsDone() const;
+  [[nodiscard]] std::optional<std::int64_t> ownLength() const;  ///< the file's derivation length
+  [[nodiscard]] std::size_t peakBytes() const;
+  [[nodiscard]] const Program& program() const;
+  [[nodiscard]] std::vector<std::string> warnings() const;
+  [[nodiscard]] std::map<std::string, double> variables() const;
+  [[nodiscard]] bool setVariable(std::string_view name, double value);
+
+  struct State;  ///< engine_state.hpp
+
+ private:
+  explicit Engine(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace axil::simeco

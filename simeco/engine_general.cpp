@@ -1,0 +1,548 @@
+// The general way: one module after the other, so that statements run in their order. Decomposition, cuts, sub-L-systems,
+// rings, predecessors of several modules; also the homomorphism, which is decomposition into another string.
+
+#include "simeco/engine_state.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace axil::simeco {
+
+namespace {
+
+/// Modules still to be looked up: [at, end) of the stack of lists, made by `depth` nested applications.
+struct Cursor {
+  std::size_t at = 0;
+  std::size_t end = 0;
+  std::size_t parameter = 0;        ///< of the module at `at`
+  std::size_t listBegin = 0;        ///< where the list starts, to give its room back
+  std::size_t parameterBegin = 0;
+  int depth = 0;
+};
+
+/// One pass over the old string. Its members are the state of the pass; `run` is the recipe.
+class Pass {
+ public:
+  Pass(Engine::State& state, StepTrace* trace) : s_(state), program_(*state.program), machine_(state.machine()), trace_(trace), old_(state.oldString()) {
+    std::size_t frame = 1;
+    for (const System& system : program_.systems)
+      for (const RuleTable* table : {&system.productions, &system.decomposition, &system.homomorphism})
+        for (const CompiledRule& rule : table->rules) frame = std::max<std::size_t>(frame, rule.frame);
+    frame_ = frame;
+    locals_.resize(frame);
+  }
+
+  /// One derivation step into `out`.
+  Result<std::size_t> derive(Arrays& out) {
+    out_ = &out;
+    enter(nullptr);
+    for (std::size_t at = 0; at < old_.codes.size();) {
+      if (auto go = lookUp(at); !go) return go.failure();
+      const SymbolCode code = old_.codes[at];
+      if (code == program_.enter) {
+        if (auto done = enterVisit(at); !done) return done.failure();
+        continue;
+      }
+      if (code == program_.leave && !open_.empty()) {
+        if (auto done = leaveVisit(at); !done) return done.failure();
+        continue;
+      }
+      if (code == program_.cut && system_->productions.bySymbol[code].all.empty()) {
+        cutAt(at);
+        continue;
+      }
+      if (auto done = rewrite(at); !done) return done.failure();
+    }
+    if (trace_ != nullptr) trace_->begin.push_back(static_cast<std::uint32_t>(out_->codes.size()));
+    return fired_;
+  }
+
+  /// The homomorphism of the whole string into `out`, with the source of each module.
+  Result<void> draw(Arrays& out, std::vector<std::uint32_t>& source) {
+    out_ = &out;
+    source_ = &source;
+    enter(nullptr);
+    for (std::size_t at = 0; at < old_.codes.size();) {
+      if (auto go = lookUp(at); !go) return go.failure();
+      if (old_.codes[at] == program_.enter) enter(&openVisit());
+      if (old_.codes[at] == program_.leave && !open_.empty()) closeVisit();
+      if (auto done = drawModule(at); !done) return done.failure();
+    }
+    return {};
+  }
+
+  [[nodiscard]] std::vector<Instance> takeVisits() { return std::move(newVisits_); }
+  [[nodiscard]] bool depthReached() const { return depthReached_; }
+
+ private:
+  // ---- where we are ------------------------------------------------------------------------------------------------
+
+  /// From time to time: whether to go on at all.
+  Result<void> lookUp(std::size_t) {
+    constexpr std::size_t betweenLooks = 1 << 14;
+    if (++looks_ % betweenLooks != 0) return {};
+    return s_.mayGoOn();
+  }
+
+  void enter(Instance* instance) {
+    Instance* now = instance == nullptr ? &s_.main : instance;
+    system_ = &program_.systems[now->system];
+    machine_.setInstance(now, system_);
+    matcher_.emplace(program_, *system_, old_, s_.around, s_.walking);
+  }
+  /// Sub-L-systems are told apart by the number they are entered with.
+  [[nodiscard]] std::optional<std::size_t> systemCalled(double id) const {
+    for (std::size_t i = 0; i < program_.systems.size(); ++i) {
+      char* end = nullptr;
+      const double label = std::strtod(program_.systems[i].label.c_str(), &end);
+      if (end != program_.systems[i].label.c_str() && *end == '\0' && label == id) return i;
+    }
+    return std::nullopt;
+  }
+  Instance& openVisit() {
+    AXIL_ASSERT(nextVisit_ < s_.visits.size(), "every `?` of a string has its instance");
+    Instance& visit = s_.visits[nextVisit_++];
+    open_.push_back(&visit);
+    return visit;
+  }
+  void closeVisit() {
+    open_.pop_back();
+    enter(open_.empty() ? nullptr : open_.back());
+  }
+  /// Variables declared `external` have the values that the calling L-system's variables of that name have.
+  void takeExternals(Instance& visit, const Instance& caller) const {
+    const System& mine = program_.systems[visit.system];
+    const System& theirs = program_.systems[caller.system];
+    for (const std::string& external : mine.externals)
+      for (std::size_t from = 0; from < theirs.globals.size(); ++from)
+        for (std::size_t to = 0; to < mine.globals.size(); ++to)
+          if (theirs.globals[from] == external && mine.globals[to] == external) visit.globals[to] = caller.globals[from];
+  }
+  /// A `?` that stays: its instance goes over to the new string.
+  Result<void> enterVisit(std::size_t& at) {
+    const Instance& caller = open_.empty() ? s_.main : *open_.back();
+    Instance& visit = openVisit();
+    newVisits_.push_back({});
+    moves_.emplace_back(newVisits_.size() - 1, &visit);
+    copyModule(at);
+    if (!visit.started)
+      if (auto done = s_.startInstance(visit); !done) return done;
+    takeExternals(visit, caller);
+    if (auto done = s_.runHeader(program_.systems[visit.system].startEach, visit, nextVisit_); !done) return done;
+    enter(&visit);
+    return {};
+  }
+  Result<void> leaveVisit(std::size_t& at) {
+    copyModule(at);
+    Instance& visit = *open_.back();
+    if (auto done = s_.runHeader(program_.systems[visit.system].endEach, visit, ~std::uint64_t{nextVisit_}); !done) return done;
+    closeVisit();
+    return {};
+  }
+
+ public:
+  /// Instances of `?` modules that stayed move to their place in the new string; call it once, after `derive`.
+  void moveVisits() {
+    for (auto& [place, visit] : moves_) newVisits_[place] = std::move(*visit);
+  }
+
+ private:
+  // ---- one module of the old string --------------------------------------------------------------------------------
+
+  /// Notes what became of `count` modules, whose successor stands from `first` on in the new string.
+  void traced(std::size_t count, std::int32_t rule, std::size_t first) {
+    if (trace_ == nullptr) return;
+    for (std::size_t i = 0; i < count; ++i) {
+      trace_->rule.push_back(i == 0 || rule < 0 ? rule : StepTrace::consumed);
+      trace_->begin.push_back(static_cast<std::uint32_t>(i == 0 ? first : out_->codes.size()));
+    }
+  }
+
+  void advance(std::size_t& at, std::size_t modules) {
+    for (std::size_t i = 0; i < modules; ++i) parameter_ += program_.parameterCount[old_.codes[at++]];
+  }
+
+  void copyModule(std::size_t& at) {
+    traced(1, StepTrace::copied, out_->codes.size());
+    put(old_.codes[at], old_.parameters.data() + parameter_);
+    advance(at, 1);
+  }
+
+  /// `%`: everything up to the bracket that closes its branch, or to the end of its L-system or of the string, goes.
+  void cutAt(std::size_t& at) {
+    std::size_t end = at;
+    int brackets = 0, visits = 0;
+    for (; end < old_.codes.size(); ++end) {
+      const SymbolCode code = old_.codes[end];
+      if (program_.closes[code] && brackets == 0) break;
+      if (code == program_.leave && visits == 0 && !open_.empty()) break;
+      brackets += program_.opens[code] ? 1 : program_.closes[code] ? -1 : 0;
+      if (code == program_.enter) {
+        ++visits;
+        ++nextVisit_;
+      }
+      if (code == program_.leave) --visits;
+    }
+    ++fired_;
+    traced(end - at, StepTrace::removed, out_->codes.size());
+    advance(at, end - at);
+  }
+
+  [[nodiscard]] Failure inTrouble(const CompiledRule& rule) const { return s_.failure(*machine_.trouble(), &rule); }
+
+  /// Whether the modules from `at` on are the rule's predecessor; binds their parameters.
+  [[nodiscard]] bool predecessorAt(const CompiledRule& rule, std::span<const SymbolCode> codes, const double* parameters, double* locals) const {
+    if (rule.predecessor.size() > codes.size()) return false;
+    for (std::size_t i = 0; i < rule.predecessor.size(); ++i) {
+      const Pattern& pattern = rule.predecessor[i];
+      if (codes[i] != pattern.code) return false;
+      const std::size_t count = program_.parameterCount[pattern.code];
+      if (!Matcher::bind(pattern, parameters, count, locals)) return false;
+      parameters += count;
+    }
+    return true;
+  }
+
+  /// `before` and the condition, once predecessor and contexts are bound.
+  [[nodiscard]] bool conditionHolds(const CompiledRule& rule, double* locals) {
+    for (std::size_t i = rule.bound; i < rule.frame; ++i) locals[i] = 0;
+    if (!rule.before.empty()) machine_.run(rule.before, locals);
+    if (machine_.trouble()) return false;
+    return !rule.hasCondition || machine_.value(rule.condition, locals) != 0;
+  }
+
+  Result<void> rewrite(std::size_t& at) {
+    const RuleIndex& index = system_->productions.bySymbol[old_.codes[at]];
+    if (index.all.empty()) return keep(at);
+    if (system_->stochastic || s_.drawsConditions) machine_.setRandom(s_.stream(Stream::Choice, static_cast<std::uint64_t>(s_.steps), at));
+    return system_->stochastic ? rewriteByWeight(index, at) : rewriteByFirst(index, at);
+  }
+
+  Result<void> keep(std::size_t& at) {
+    if (system_->decomposition.empty()) {
+      copyModule(at);
+      return {};
+    }
+    const std::size_t first = out_->codes.size();
+    machine_.setRandom(s_.stream(Stream::Successor, static_cast<std::uint64_t>(s_.steps), at));
+    pushList({&old_.codes[at], 1}, {old_.parameters.data() + parameter_, program_.parameterCount[old_.codes[at]]}, 0);
+    if (auto done = emptyLists(system_->decomposition, at, at); !done) return done;
+    traced(1, StepTrace::copied, first);
+    advance(at, 1);
+    return {};
+  }
+
+  [[nodiscard]] bool applies(const CompiledRule& rule, std::size_t at, double* locals) {
+    return predecessorAt(rule, old_.codes.subspan(at), old_.parameters.data() + parameter_, locals) &&
+           matcher_->contexts(rule, at, at + rule.predecessor.size() - 1, locals) && conditionHolds(rule, locals);
+  }
+
+  Result<void> rewriteByFirst(const RuleIndex& index, std::size_t& at) {
+    for (const std::uint32_t number : candidates(index, old_.parameters.data() + parameter_)) {
+      const CompiledRule& rule = system_->productions.rules[number];
+      const bool fires = applies(rule, at, locals_.data());
+      if (machine_.trouble()) return inTrouble(rule);
+      if (fires) return fire(rule, at, locals_.data());
+    }
+    return keep(at);
+  }
+
+  /// Every applicable rule joins the set, with the locals that its `before` left; one is drawn by weight.
+  Result<void> rewriteByWeight(const RuleIndex& index, std::size_t& at) {
+    applicable_.clear();
+    std::size_t used = 0;
+    double sum = 0;
+    for (const std::uint32_t number : candidates(index, old_.parameters.data() + parameter_)) {
+      const CompiledRule& rule = system_->productions.rules[number];
+      if (frames_.size() < used + frame_) frames_.resize(used + frame_);
+      double* locals = frames_.data() + used;
+      const bool joins = applies(rule, at, locals);
+      const double weight = joins ? machine_.value(rule.successors.front().weight, locals) : 0;
+      if (!machine_.trouble() && !(weight >= 0)) machine_.giveUp(ErrorCode::NoAnswer, "a probability that is negative or no number");
+      if (machine_.trouble()) return inTrouble(rule);
+      if (!joins) continue;
+      applicable_.push_back({&rule, used, weight});
+      sum += weight;
+      used += frame_;
+    }
+    if (applicable_.empty()) return keep(at);
+    double left = sum * machine_.rng().uniform();
+    std::size_t chosen = 0;
+    while (chosen + 1 < applicable_.size() && left >= applicable_[chosen].weight) left -= applicable_[chosen++].weight;
+    return fire(*applicable_[chosen].rule, at, frames_.data() + applicable_[chosen].locals);
+  }
+
+  /// Which of a rule's successors: by weight, where there is a choice.
+  Result<const CompiledSuccessor*> choose(const CompiledRule& rule, double* locals) {
+    if (rule.successors.size() == 1) return &rule.successors.front();
+    double sum = 0;
+    weights_.clear();
+    for (const CompiledSuccessor& successor : rule.successors) {
+      weights_.push_back(machine_.value(successor.weight, locals));
+      if (!machine_.trouble() && !(weights_.back() >= 0)) machine_.giveUp(ErrorCode::NoAnswer, "a probability that is negative or no number");
+      if (machine_.trouble()) return inTrouble(rule);
+      sum += weights_.back();
+    }
+    double left = sum * machine_.rng().uniform();
+    std::size_t chosen = 0;
+    while (chosen + 1 < weights_.size() && left >= weights_[chosen]) left -= weights_[chosen++];
+    return &rule.successors[chosen];
+  }
+
+  Result<void> fire(const CompiledRule& rule, std::size_t& at, double* locals) {
+    ++fired_;
+    if (rule.random) machine_.setRandom(s_.stream(Stream::Successor, static_cast<std::uint64_t>(s_.steps), at));
+    if (!rule.after.empty()) machine_.run(rule.after, locals);
+    if (machine_.trouble()) return inTrouble(rule);
+    const auto successor = choose(rule, locals);
+    if (!successor) return successor.failure();
+    const std::size_t first = out_->codes.size();
+    const std::size_t consumed = rule.predecessor.size();
+    if (system_->decomposition.empty()) {
+      if (auto done = write(rule, **successor, locals, *out_); !done) return done;
+      noteVisits(first);
+    } else {
+      if (auto done = pushSuccessor(rule, **successor, locals, 0); !done) return done;
+      if (auto done = emptyLists(system_->decomposition, at, at + consumed - 1); !done) return done;
+    }
+    s_.fired[rule.number] += out_->codes.size() - first;
+    traced(consumed, static_cast<std::int32_t>(rule.number), first);
+    advance(at, consumed);
+    return {};
+  }
+
+  // ---- writing -----------------------------------------------------------------------------------------------------
+
+  [[nodiscard]] double stored(double value) const { return s_.options.singlePrecision ? static_cast<double>(static_cast<float>(value)) : value; }
+
+  /// Appends a successor with its parameters computed.
+  Result<void> write(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, Arrays& to) {
+    const std::size_t codes = to.codes.size(), parameters = to.parameters.size();
+    if (codes + successor.codes.size() > s_.options.limits.modules) return s_.tooMany("modules", s_.options.limits.modules, &rule);
+    to.codes.reserveMore(codes + successor.codes.size());
+    to.parameters.reserveMore(parameters + successor.terms.size());
+    for (std::size_t i = 0; i < successor.codes.size(); ++i) to.codes[codes + i] = successor.codes[i];
+    for (std::size_t i = 0; i < successor.terms.size(); ++i) to.parameters[parameters + i] = stored(machine_.value(successor.terms[i], locals));
+    if (machine_.trouble()) return inTrouble(rule);
+    if (program_.language == Language::SimEco && !successor.constant)
+      for (std::size_t i = 0; i < successor.terms.size(); ++i)
+        if (!std::isfinite(to.parameters[parameters + i])) return s_.failure({ErrorCode::NoAnswer, "a parameter that is not a finite number"}, &rule);
+    to.codes.setSize(codes + successor.codes.size());
+    to.parameters.setSize(parameters + successor.terms.size());
+    return {};
+  }
+  void noteVisits(std::size_t first) {
+    if (program_.enter < 0) return;
+    for (std::size_t i = first; i < out_->codes.size(); ++i)
+      if (out_->codes[i] == program_.enter) newVisits_.emplace_back().system = unknownSystem;
+  }
+  void put(SymbolCode code, const double* parameters) {
+    const std::size_t count = program_.parameterCount[code], used = out_->parameters.size();
+    out_->codes.push(code);
+    if (count == 0) return;
+    out_->parameters.reserveMore(used + count);
+    for (std::size_t i = 0; i < count; ++i) out_->parameters[used + i] = parameters[i];
+    out_->parameters.setSize(used + count);
+  }
+
+  // ---- decomposition and homomorphism: lists of modules, each looked up again ----------------------------------------
+
+  void pushList(std::span<const SymbolCode> codes, std::span<const double> parameters, int depth) {
+    const Cursor cursor{lists_.codes.size(), lists_.codes.size() + codes.size(), lists_.parameters.size(), lists_.codes.size(), lists_.parameters.size(), depth};
+    for (const SymbolCode code : codes) lists_.codes.push(code);
+    for (const double parameter : parameters) lists_.parameters.push(parameter);
+    cursors_.push_back(cursor);
+  }
+  Result<void> pushSuccessor(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, int depth) {
+    const std::size_t codes = lists_.codes.size(), parameters = lists_.parameters.size();
+    if (auto done = write(rule, successor, locals, lists_); !done) return done;
+    cursors_.push_back({codes, lists_.codes.size(), parameters, codes, parameters, depth});
+    return {};
+  }
+
+  /// Looks up every module of the lists, the innermost list first, until nothing is left; [first, last] are the modules of the
+  /// old string whose contexts count.
+  Result<void> emptyLists(const RuleTable& table, std::size_t first, std::size_t last) {
+    while (!cursors_.empty()) {
+      Cursor& cursor = cursors_.back();
+      if (cursor.at == cursor.end) {
+        lists_.codes.setSize(cursor.listBegin);
+        lists_.parameters.setSize(cursor.parameterBegin);
+        cursors_.pop_back();
+        continue;
+      }
+      if (auto go = lookUp(first); !go) return go;
+      if (auto done = lookUpModule(table, first, last); !done) return done;
+    }
+    return {};
+  }
+  Result<void> lookUpModule(const RuleTable& table, std::size_t first, std::size_t last) {
+    Cursor& cursor = cursors_.back();
+    const SymbolCode code = lists_.codes[cursor.at];
+    const RuleIndex& index = table.bySymbol[code];
+    if (!index.all.empty()) {
+      const std::span<const SymbolCode> codes = lists_.codes.span().subspan(cursor.at, cursor.end - cursor.at);
+      for (const std::uint32_t number : candidates(index, lists_.parameters.data() + cursor.parameter)) {
+        const CompiledRule& rule = table.rules[number];
+        const bool fires = predecessorAt(rule, codes, lists_.parameters.data() + cursor.parameter, locals_.data()) &&
+                           matcher_->contexts(rule, first, last, locals_.data()) && holdsAtDepth(rule, table, cursor.depth);
+        if (machine_.trouble()) return inTrouble(rule);
+        if (fires) return expand(rule);
+      }
+    }
+    return putListed(code);
+  }
+  /// A rule that only the depth keeps from firing is worth a warning.
+  [[nodiscard]] bool holdsAtDepth(const CompiledRule& rule, const RuleTable& table, int depth) {
+    if (depth < table.maximumDepth) return conditionHolds(rule, locals_.data());
+    depthReached_ = depthReached_ || (table.warn && (!rule.before.empty() || conditionHolds(rule, locals_.data())));
+    return false;
+  }
+  Result<void> expand(const CompiledRule& rule) {
+    Cursor& cursor = cursors_.back();
+    const int depth = cursor.depth + 1;
+    for (std::size_t i = 0; i < rule.predecessor.size(); ++i) cursor.parameter += program_.parameterCount[lists_.codes[cursor.at++]];
+    if (!rule.after.empty()) machine_.run(rule.after, locals_.data());
+    if (machine_.trouble()) return inTrouble(rule);
+    ++fired_;
+    const auto successor = choose(rule, locals_.data());
+    if (!successor) return successor.failure();
+    return pushSuccessor(rule, **successor, locals_.data(), depth);
+  }
+  Result<void> putListed(SymbolCode code) {
+    Cursor& cursor = cursors_.back();
+    if (out_->codes.size() >= s_.options.limits.modules) return s_.tooMany("modules", s_.options.limits.modules, nullptr);
+    put(code, lists_.parameters.data() + cursor.parameter);
+    if (source_ != nullptr) source_->push_back(sourceNow_);
+    if (source_ == nullptr && code == program_.enter) newVisits_.emplace_back().system = unknownSystem;
+    cursor.parameter += program_.parameterCount[code];
+    ++cursor.at;
+    return {};
+  }
+
+  /// At depth 0 a homomorphism rule may take several modules of the string itself.
+  Result<void> drawModule(std::size_t& at) {
+    const RuleTable& table = system_->homomorphism;
+    sourceNow_ = static_cast<std::uint32_t>(at);
+    if (table.empty()) return drawAsItIs(at);
+    machine_.setRandom(s_.stream(Stream::Homomorphism, table.seed.value_or(0), at));
+    const RuleIndex& index = table.bySymbol[old_.codes[at]];
+    if (table.maximumDepth > 0 && !index.all.empty()) {
+      for (const std::uint32_t number : candidates(index, old_.parameters.data() + parameter_)) {
+        const CompiledRule& rule = table.rules[number];
+        const bool fires = applies(rule, at, locals_.data());
+        if (machine_.trouble()) return inTrouble(rule);
+        if (!fires) continue;
+        if (!rule.after.empty()) machine_.run(rule.after, locals_.data());
+        if (machine_.trouble()) return inTrouble(rule);
+        const auto successor = choose(rule, locals_.data());
+        if (!successor) return successor.failure();
+        if (auto done = pushSuccessor(rule, **successor, locals_.data(), 1); !done) return done;
+        const std::size_t consumed = rule.predecessor.size();
+        if (auto done = emptyLists(table, at, at + consumed - 1); !done) return done;
+        advance(at, consumed);
+        return {};
+      }
+    }
+    return drawAsItIs(at);
+  }
+  Result<void> drawAsItIs(std::size_t& at) {
+    if (out_->codes.size() >= s_.options.limits.modules) return s_.tooMany("modules", s_.options.limits.modules, nullptr);
+    put(old_.codes[at], old_.parameters.data() + parameter_);
+    source_->push_back(sourceNow_);
+    advance(at, 1);
+    return {};
+  }
+
+ public:
+  /// A `?` that a rule has just made: which L-system it enters is read from its parameter when the step is over.
+  static constexpr std::size_t unknownSystem = static_cast<std::size_t>(-1);
+  Result<void> nameVisits(std::span<const SymbolCode> codes, std::span<const double> parameters) {
+    if (program_.enter < 0) return {};
+    std::size_t parameter = 0, visit = 0;
+    for (const SymbolCode code : codes) {
+      if (code == program_.enter) {
+        if (visit == newVisits_.size()) newVisits_.emplace_back().system = unknownSystem;
+        Instance& instance = newVisits_[visit++];
+        const auto system = systemCalled(parameters[parameter]);
+        if (!system) return s_.failure({ErrorCode::BadGrammar, "?(id, scale) names an L-system that the file does not have"}, nullptr);
+        if (instance.system == unknownSystem) instance.system = *system;
+      }
+      parameter += program_.parameterCount[code];
+    }
+    return {};
+  }
+
+ private:
+  struct Applicable {
+    const CompiledRule* rule;
+    std::size_t locals;
+    double weight;
+  };
+
+  Engine::State& s_;
+  const Program& program_;
+  Machine& machine_;
+  StepTrace* trace_;
+  OldString old_;
+  const System* system_ = nullptr;
+  std::optional<Matcher> matcher_;
+  Arrays* out_ = nullptr;
+  std::vector<std::uint32_t>* source_ = nullptr;
+  std::uint32_t sourceNow_ = 0;
+  std::size_t parameter_ = 0;  ///< of the module at hand
+  std::size_t fired_ = 0;
+  std::size_t looks_ = 0;
+  std::size_t frame_ = 1;
+  std::vector<double> locals_, frames_, weights_;
+  std::vector<Applicable> applicable_;
+  Arrays lists_;
+  std::vector<Cursor> cursors_;
+  bool depthReached_ = false;
+  std::size_t nextVisit_ = 0;
+  std::vector<Instance*> open_;
+  std::vector<Instance> newVisits_;
+  std::vector<std::pair<std::size_t, Instance*>> moves_;
+};
+
+}  // namespace
+
+Result<std::size_t> Engine::State::generalStep(StepTrace* trace) {
+  if (trace != nullptr) *trace = {};
+  around.read(*program, program->main().ignored, needs, string.codes());
+  Pass pass(*this, trace);
+  const auto count = pass.derive(spare);
+  if (!count) return count.failure();
+  if (auto named = pass.nameVisits(spare.codes.span(), spare.parameters.span()); !named) return named.failure();
+  pass.moveVisits();
+  visits = pass.takeVisits();
+  if (pass.depthReached()) note("the maximum depth of the decomposition kept rules from being applied");
+  return *count;
+}
+
+Result<void> Engine::State::findVisits() {
+  Pass pass(*this, nullptr);
+  if (auto named = pass.nameVisits(string.codes(), string.parameters()); !named) return named;
+  visits = pass.takeVisits();
+  return {};
+}
+
+Result<Image> Engine::State::makeImage() {
+  Image image{ModuleString(program->symbols), {}};
+  Arrays out;
+  around.read(*program, program->main().ignored, needs, string.codes());
+  const Instance mainBefore = main;
+  const std::vector<Instance> visitsBefore = visits;
+  Pass pass(*this, nullptr);
+  const auto drawn = pass.draw(out, image.source);
+  // An image is a view: what its statements do to variables is forgotten.
+  main = mainBefore;
+  visits = visitsBefore;
+  if (!drawn) return drawn.failure();
+  if (pass.depthReached()) note("the maximum depth of the homomorphism kept rules from being applied");
+  image.string.codeBuffer() = std::move(out.codes);
+  image.string.parameterBuffer() = std::move(out.parameters);
+  return image;
+}
+
+}  // namespace axil::simeco

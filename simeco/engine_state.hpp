@@ -1,0 +1,76 @@
+#pragma once
+/// \file
+/// What an Engine holds. Private to the engine: engine.cpp is the door, engine_general.cpp and engine_plain.cpp are the two ways.
+
+#include "simeco/engine.hpp"
+#include "simeco/engine_machine.hpp"
+#include "simeco/engine_match.hpp"
+#include "simeco/engine_surroundings.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace axil::simeco {
+
+/// Two arrays that a step fills.
+struct Arrays {
+  Buffer<SymbolCode> codes;
+  Buffer<double> parameters;
+};
+
+/// Which draws belong to what: each has its own streams, so none shifts another.
+enum class Stream : std::uint64_t { Axiom, Header, Choice, Successor, Homomorphism };
+
+struct Engine::State {
+  std::shared_ptr<const Program> program;
+  EngineOptions options;
+  SharedSettings shared;
+  ModuleString string;
+  Arrays spare;                    ///< the buffers of the string before
+  Surroundings around;
+  SurroundingNeeds needs;
+  Instance main;
+  std::vector<Instance> visits;    ///< of the string, in the order of its `?`
+  std::vector<Machine> machines;   ///< one a thread
+  std::vector<std::uint64_t> fired;///< modules that each production made more than it took, in the last step; for messages
+  std::vector<std::string> notes;
+  Rng random{0};
+  std::int64_t steps = 0;
+  std::size_t peak = 0;
+  bool walking = false;            ///< sub-L-systems: contexts walk, since ignored letters differ
+  bool plain = false;
+  bool timeless = false;           ///< a string that one step leaves as it is stays so
+  bool drawsConditions = false;    ///< rules that did not fire may fire at the next step by chance
+  bool drawsResults = false;
+  bool stopped = false;
+  std::optional<std::int64_t> wantedLength;
+
+  [[nodiscard]] Machine& machine() { return machines.front(); }
+  [[nodiscard]] OldString oldString() const { return {string.codes(), string.parameters()}; }
+  [[nodiscard]] Rng stream(Stream which, std::uint64_t a, std::uint64_t b = 0) const { return random.split(static_cast<std::uint64_t>(which)).split(a, b); }
+
+  /// The error of a machine in trouble, with the rule and step it happened at.
+  [[nodiscard]] Failure failure(const Error& error, const CompiledRule* rule) const;
+  [[nodiscard]] Failure tooMany(const char* what, std::size_t limit, const CompiledRule* rule) const;
+  [[nodiscard]] Result<void> mayGoOn() const;
+  [[nodiscard]] Result<void> runHeader(const Code& code, Instance& instance, std::uint64_t which);
+  [[nodiscard]] Result<void> startInstance(Instance& instance);
+  void notePeak(std::size_t more);
+  void note(const std::string& text);
+
+  /// Rewrites the whole string into `spare`; returns how many rules fired.
+  [[nodiscard]] Result<std::size_t> generalStep(StepTrace* trace);
+  [[nodiscard]] Result<std::size_t> plainStep();
+  [[nodiscard]] Result<Image> makeImage();
+  /// Instances for the `?` modules of the axiom.
+  [[nodiscard]] Result<void> findVisits();
+};
+
+/// The rules that may apply to a module with this code and first parameter.
+[[nodiscard]] inline const std::vector<std::uint32_t>& candidates(const RuleIndex& index, const double* parameters) {
+  if (!index.numbered) return index.all;
+  const auto found = index.byNumber.find(std::bit_cast<std::uint64_t>(parameters[0] == 0 ? 0.0 : parameters[0]));
+  return found == index.byNumber.end() ? index.otherwise : found->second;
+}
+
+}  // namespace axil::simeco
