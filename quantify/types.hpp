@@ -30,6 +30,8 @@ struct LeafArrangement {
   std::optional<double> width;
   std::optional<double> petiole;
   std::string shape;
+
+  friend bool operator==(const LeafArrangement&, const LeafArrangement&) = default;
 };
 
 struct SegmentTag;

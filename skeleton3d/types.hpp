@@ -76,12 +76,16 @@ struct ClickedNode {
   NodeId id;
   std::map<std::string, PhotoPoint> clicks;
   std::optional<double> radius;  ///< half the stem's width, project's unit
+
+  friend bool operator==(const ClickedNode&, const ClickedNode&) = default;
 };
 
 /// A stem as a person clicked it: node ids from where it leaves its parent to its tip.
 struct ClickedStem {
   StemId id;
   std::vector<NodeId> nodes;
+
+  friend bool operator==(const ClickedStem&, const ClickedStem&) = default;
 };
 
 /// A node of the skeleton. `sigma`: standard deviation of each coordinate for a click noise of `SolveOptions::click_px`.
