@@ -1,6 +1,7 @@
 #include "emit/assembly.hpp"
 
 #include "emit/builder.hpp"
+#include "simeco/growth.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -149,7 +150,7 @@ Stage stemStage(Grammar& grammar, int number, double length, double radius, cons
   if (!options.stemTexture.empty()) stage.attributes.push_back(b.text("TextureFront", options.stemTexture));
   stage.attributes.push_back(b.attribute("GrowRate", b.number(length, digits.length)));
   stage.attributes.push_back(b.attribute("GrowTime", b.number(1, kPlain)));
-  stage.attributes.push_back(b.attribute("BroadenRate", b.number(radius / kStemModelRadius, digits.length)));
+  stage.attributes.push_back(b.attribute("BroadenRate", b.number(radius / simeco::modelRadius, digits.length)));
   stage.attributes.push_back(colour(grammar, kStemColour));
   return stage;
 }
@@ -162,7 +163,7 @@ Stage leafStage(Grammar& grammar, int number, const LeafStage& leaf, const Digit
   if (!options.leafTexture.empty()) stage.attributes.push_back(b.text("TextureFront", options.leafTexture));
   stage.attributes.push_back(b.attribute("GrowRate", b.number(leaf.length, digits.length)));
   stage.attributes.push_back(b.attribute("GrowTime", b.number(1, kPlain)));
-  if (leaf.width > 0) stage.attributes.push_back(b.attribute("BroadenRate", b.number(leaf.width / 2 / kStemModelRadius, digits.length)));
+  if (leaf.width > 0) stage.attributes.push_back(b.attribute("BroadenRate", b.number(leaf.width / 2 / simeco::modelRadius, digits.length)));
   stage.attributes.push_back(colour(grammar, kLeafColour));
   return stage;
 }

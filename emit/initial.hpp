@@ -25,8 +25,8 @@ struct EmitOptions {
   TurningRule turning = TurningRule::Exact;  ///< Literal writes the measured angles as they are (see docs/decisions/turning.md)
   double deriveTime = 3;        ///< time of one derivation step; organs take 1 to grow
   std::string stemModel = "DefaultStem.i";
-  std::string stemTexture;      ///< empty: none is named
-  std::string leafTexture;
+  std::string stemTexture = {};  ///< empty: none is named
+  std::string leafTexture = {};
 };
 
 /// The grammar that regrows `measurements`. Where no radius was measured, one is made up and said so in the grammar's comment: a

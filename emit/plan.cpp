@@ -71,7 +71,7 @@ Digits digitsFor(int decimals, double scale, double shortest) {
 
 /// The body of the growing point is to be seen nowhere: the thesis' 1e-8, or less for a small plant.
 double growingPointFor(double scale, double shortest) {
-  const double most = std::min(1e-7 * scale, 1e-2 * shortest);
+  const double most = std::min(5e-8 * scale, 1e-2 * shortest);
   return std::min(1e-8, std::pow(10.0, std::floor(std::log10(most))));
 }
 

@@ -15,7 +15,6 @@
 
 namespace axil::emit {
 
-inline constexpr double kStemModelRadius = 0.01;  ///< a stem's radius is its stage's BroadenRate x GrowTime x this
 inline constexpr double kGrowingPointTime = 1e-4;  ///< GrowTime of stage 0, as in the thesis
 inline constexpr int kFirstSegmentStage = 2;
 inline constexpr int kPetioleStage = 1;
