@@ -138,6 +138,28 @@ ProjectLeaves readLeaves(ObjectReader reader) {
   return leaves;
 }
 
+Verdict verdictOf(ObjectReader& reader) {
+  const std::string verdict = reader.text("verdict");
+  if (verdict == "rejected") return Verdict::Rejected;
+  if (verdict == "changed") return Verdict::Changed;
+  if (verdict != "accepted" && !verdict.empty()) reader.fault("verdict", "is '" + verdict + "'; it must be accepted, changed or rejected");
+  return Verdict::Accepted;
+}
+
+ProjectTrait readTrait(ObjectReader reader) {
+  ProjectTrait trait;
+  trait.organ = reader.text("organ");
+  trait.property = reader.text("property");
+  trait.words = reader.textOr("words", "");
+  trait.verdict = verdictOf(reader);
+  trait.value = reader.textOr("value", "");
+  trait.low = reader.numberIfAny("low");
+  trait.high = reader.numberIfAny("high");
+  trait.unit = reader.textOr("unit", "");
+  trait.extras = reader.extras();
+  return trait;
+}
+
 void checkVersion(ObjectReader& reader) {
   const std::int64_t version = reader.integer("axil", 1, 1'000'000);
   if (version > kVersion)
@@ -152,6 +174,8 @@ Project readProject(ObjectReader reader) {
   project.unit = reader.textOr("unit", "m");
   if (reader.has("seed")) project.seed = static_cast<std::uint64_t>(reader.integer("seed", 0, std::int64_t{1} << 53));
   project.description = reader.textOr("description", "");
+  if (reader.has("traits"))
+    for (ObjectReader& trait : reader.objects("traits")) project.traits.push_back(readTrait(std::move(trait)));
   for (ObjectReader& view : reader.objects("views")) project.views.push_back(readView(std::move(view)));
   for (ObjectReader& node : reader.objects("nodes")) project.nodes.push_back(readNode(std::move(node)));
   for (ObjectReader& stem : reader.objects("stems")) project.stems.push_back(readStem(std::move(stem)));
@@ -249,6 +273,27 @@ Json leavesJson(const ProjectLeaves& leaves) {
   return json;
 }
 
+const char* verdictName(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Accepted: return "accepted";
+    case Verdict::Changed: return "changed";
+    case Verdict::Rejected: return "rejected";
+  }
+  return "accepted";
+}
+
+Json traitJson(const ProjectTrait& trait) {
+  Json json = {{"organ", trait.organ}, {"property", trait.property}};
+  if (!trait.words.empty()) json["words"] = trait.words;
+  json["verdict"] = verdictName(trait.verdict);
+  if (!trait.value.empty()) json["value"] = trait.value;
+  if (trait.low) json["low"] = *trait.low;
+  if (trait.high) json["high"] = *trait.high;
+  if (!trait.unit.empty()) json["unit"] = trait.unit;
+  addExtras(json, trait.extras);
+  return json;
+}
+
 template <class Items, class ToJson>
 Json listJson(const Items& items, ToJson toJson) {
   Json list = Json::array();
@@ -257,7 +302,8 @@ Json listJson(const Items& items, ToJson toJson) {
 }
 
 Json projectJson(const Project& project) {
-  Json json = {{"axil", kVersion}, {"name", project.name}, {"unit", project.unit}, {"seed", project.seed}, {"description", project.description}};
+  Json json = {{"axil", kVersion}, {"name", project.name}, {"unit", project.unit}, {"seed", project.seed}, {"description", project.description.text()}};
+  if (!project.traits.empty()) json["traits"] = listJson(project.traits, traitJson);
   json["views"] = listJson(project.views, viewJson);
   json["nodes"] = listJson(project.nodes, nodeJson);
   json["stems"] = listJson(project.stems, stemJson);
