@@ -107,10 +107,6 @@ class RuleWriter {
   simeco::RuleSet& rules_;
 };
 
-std::string countOf(std::size_t count, const std::string& thing, const std::string& things) {
-  return std::to_string(count) + " " + (count == 1 ? thing : things);
-}
-
 std::vector<std::string> heading(const Plan& plan) {
   std::size_t leaves = plan.rootLeaves.size();
   for (const PlannedSegment& s : plan.segments) leaves += s.leaves.size();
@@ -138,17 +134,25 @@ void addStages(const Plan& plan, Grammar& grammar, const EmitOptions& options) {
 
 }  // namespace
 
+std::string countOf(std::size_t count, const std::string& thing, const std::string& things) {
+  return std::to_string(count) + " " + (count == 1 ? thing : things);
+}
+
 simeco::OrganBlock& blockOf(simeco::PlantGrammar& plant, OrganKind kind) {
   return *std::find_if(plant.organs.begin(), plant.organs.end(), [kind](const simeco::OrganBlock& block) { return block.kind == kind; });
 }
 
 Stage stemStage(Grammar& grammar, int number, double length, double radius, const Digits& digits, const EmitOptions& options) {
+  return stemStage(grammar, number, Builder(grammar).number(length, digits.length), radius, digits, options);
+}
+
+Stage stemStage(Grammar& grammar, int number, simeco::ExprId length, double radius, const Digits& digits, const EmitOptions& options) {
   Builder b(grammar);
   Stage stage;
   stage.number = number;
   stage.attributes.push_back(b.text("Model", options.stemModel));
   if (!options.stemTexture.empty()) stage.attributes.push_back(b.text("TextureFront", options.stemTexture));
-  stage.attributes.push_back(b.attribute("GrowRate", b.number(length, digits.length)));
+  stage.attributes.push_back(b.attribute("GrowRate", length));
   stage.attributes.push_back(b.attribute("GrowTime", b.number(1, kPlain)));
   stage.attributes.push_back(b.attribute("BroadenRate", b.number(radius / simeco::modelRadius, digits.length)));
   stage.attributes.push_back(colour(grammar, kStemColour));

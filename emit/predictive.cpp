@@ -68,15 +68,15 @@ class Predictor {
         nextStage_(plan.firstFreeStage()), nextLeaf_(static_cast<int>(plan.leafStages.size()) + 1) {}
 
   simeco::Grammar predicted() {
-    std::vector<std::vector<Module>> successors;
-    for (const RuleTemplate& pattern : templates_) successors.push_back(successorOf(pattern));
+    std::map<std::size_t, std::vector<Module>> successors;  // by template, of those that a tip needs
+    for (std::size_t s = 0; s < plan_.segments.size(); ++s)
+      if (const std::size_t t = templateOf(s); isTip(plan_.segments[s]) && !successors.contains(t)) successors[t] = successorOf(templates_[t]);
     clock_ = clockOf(plan_, out_);
     numbers_ = numbersFor(clock_, nextStage_, out_.firstFreeApex);
     for (std::size_t s = 0; s < plan_.segments.size(); ++s)
       if (isTip(plan_.segments[s])) addCounter(s);
     addStepRule();
-    for (std::size_t t = 0; t < templates_.size(); ++t)
-      if (used_.contains(t)) addTemplateRules(t, std::move(successors[t]));
+    for (auto& [t, successor] : successors) addTemplateRules(t, std::move(successor));
     out_.grammar.version = "1.1";
     out_.grammar.comments.before.push_back("// Then predicts one stage: every tip goes on like the part of the plant that it came from.");
     return std::move(out_.grammar);
@@ -87,8 +87,8 @@ class Predictor {
   std::vector<simeco::Stage>& stages(OrganKind kind) { return blockOf(out_.grammar.plants.front(), kind).stages; }
 
   /// `random(low, high)`, or the number itself where it does not vary.
-  ExprId drawn(const Spread& spread) {
-    const int digits = plan_.digits.angle;
+  ExprId drawn(const Spread& spread) { return drawn(spread, plan_.digits.angle); }
+  ExprId drawn(const Spread& spread, int digits) {
     if (rounded(spread.low, digits) == rounded(spread.high, digits)) return builder_.number(spread.low, digits);
     return builder_.call("random", {builder_.number(spread.low, digits), builder_.number(spread.high, digits)});
   }
@@ -97,8 +97,8 @@ class Predictor {
     to.push_back(Builder::module("rotu", {drawn(rotu)}));
   }
 
-  int newStem(double length, double radius) {
-    stages(OrganKind::Stem).push_back(stemStage(out_.grammar, nextStage_, length, radius, plan_.digits, options_));
+  int newStem(const Spread& length, double radius) {
+    stages(OrganKind::Stem).push_back(stemStage(out_.grammar, nextStage_, drawn(length, plan_.digits.length), radius, plan_.digits, options_));
     return nextStage_++;
   }
   int newLeaf(const quantify::LeafSpread& leaf, const std::string& shape) {
@@ -115,7 +115,7 @@ class Predictor {
   void addLeaf(std::vector<Module>& to, const quantify::LeafSpread& leaf, const std::string& shape) {
     to.push_back(Builder::module("["));
     drawnTurn(to, leaf.rotr, leaf.rotu);
-    to.push_back(builder_.organ("S", leaf.petiole.mean > 0 ? newStem(leaf.petiole.mean, thinnest()) : 0));
+    to.push_back(builder_.organ("S", leaf.petiole.mean > 0 ? newStem(leaf.petiole, thinnest()) : 0));
     const Spread none;
     drawnTurn(to, none, leaf.roll);
     to.push_back(builder_.organ("L", newLeaf(leaf, shape)));
@@ -130,7 +130,7 @@ class Predictor {
       const bool bracketed = c < pattern.structure.branches;
       if (bracketed) next.push_back(Builder::module("["));
       drawnTurn(next, pattern.children[c].rotr, pattern.children[c].rotu);
-      next.push_back(builder_.organ("S", newStem(pattern.children[c].length.mean, thinnest())));
+      next.push_back(builder_.organ("S", newStem(pattern.children[c].length, thinnest())));
       if (bracketed) next.push_back(Builder::module("]"));
     }
     return next;
@@ -150,7 +150,6 @@ class Predictor {
 
   void addCounter(std::size_t s) {
     const std::size_t t = templateOf(s);
-    used_[t] = true;
     const int start = numbers_.firstCount + out_.bornAt[s] + 1 - clock_.firstTip;
     const std::vector<Module> counter{builder_.organ("S", start), builder_.organ("S", markerOf(t))};
     if (!out_.ruleOf[s]) {
@@ -175,8 +174,9 @@ class Predictor {
     simeco::Production wake = Builder::rule({builder_.organ("S", numbers_.lastCount)}, {builder_.organ("A", apexOf(t))});
     wake.right = {builder_.organ("S", markerOf(t))};
     const RuleTemplate& pattern = templates_[t];
-    wake.comments.before = {"// Template " + std::to_string(t + 1) + ", from " + std::to_string(pattern.members.size()) + " measured: a main stem, " +
-                            std::to_string(pattern.structure.branches) + " branches, " + std::to_string(pattern.structure.leaves) + " leaves."};
+    wake.comments.before = {"// Template " + std::to_string(t + 1) + ", from " + countOf(pattern.members.size(), "measured place", "measured places") +
+                            ": the stem goes on, " + countOf(pattern.structure.branches, "branch", "branches") + ", " +
+                            countOf(pattern.structure.leaves, "leaf", "leaves") + "."};
     rules().productions.push_back(std::move(wake));
     rules().productions.push_back(Builder::rule({builder_.organ("A", apexOf(t))}, std::move(successor)));
   }
@@ -191,7 +191,6 @@ class Predictor {
   int nextLeaf_;
   Clock clock_;
   Numbers numbers_;
-  std::map<std::size_t, bool> used_;
 };
 
 }  // namespace

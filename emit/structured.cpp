@@ -73,7 +73,6 @@ class Structurer {
     grammar_.version = "1.1";
     grammar_.comments.before = {"// Plants like a measured one of " + std::to_string(m_.segments.size()) + " segments; each seed grows another.",
                                 "// A(order, n): an apex of that branching order that still makes n segments."};
-    stages(OrganKind::Stem).push_back(growingPointStage(grammar_, plan_.growingPoint, options_));
     rules().axiom = axiom();
     for (const OrderStatistics& order : orders_) {
       addStages(order);
@@ -124,8 +123,17 @@ class Structurer {
     to.push_back(Builder::module("rotu", {rotu}));
   }
 
+  /// Drawn for each segment; never shorter than a tenth of the mean, which a normal distribution would allow.
+  ExprId drawnLength(const Spread& spread) {
+    const int digits = plan_.digits.length;
+    const ExprId mean = builder_.number(spread.mean, digits);
+    if (rounded(spread.deviation, digits) == 0) return mean;
+    const ExprId normal = builder_.call("normal", {mean, builder_.number(spread.deviation, digits)});
+    return builder_.call("max", {builder_.number(spread.mean / 10, digits), normal});
+  }
+
   void addStages(const OrderStatistics& order) {
-    stages(OrganKind::Stem).push_back(stemStage(grammar_, stemStageOf(order), order.length.mean, radii_.at(order.order), plan_.digits, options_));
+    stages(OrganKind::Stem).push_back(stemStage(grammar_, stemStageOf(order), drawnLength(order.length), radii_.at(order.order), plan_.digits, options_));
     if (usualLeaves(order) == 0) return;
     if (order.leaf.petiole.mean > 0)
       stages(OrganKind::Stem).push_back(stemStage(grammar_, stemStageOf(order) + 1, order.leaf.petiole.mean, radii_.at(order.order) / 3, plan_.digits, options_));
