@@ -51,7 +51,7 @@ Undistortion undoDistortion(const std::array<double, 5>& coefficients, glm::dvec
   };
   glm::dvec2 p = target;
   glm::dvec2 miss = missing(p);
-  for (int step = 0; step < 60 && glm::length(miss) > 1e-15; ++step) {
+  for (int step = 0; step < 60 && glm::length(miss) > 1e-14; ++step) {
     const auto j = detail::distortJacobian(coefficients, p.x, p.y);
     const double det = j[0] * j[3] - j[1] * j[2];
     if (!(std::abs(det) > 1e-12)) break;
@@ -131,8 +131,9 @@ glm::dvec2 undistorted(const Camera& camera, PhotoPoint pixel) {
   return hasDistortion(camera) ? undoDistortion(camera.distortion, seen).point : seen;
 }
 
-Ray rayThrough(const Camera& camera, PhotoPoint pixel) {
-  const glm::dvec2 p = undistorted(camera, pixel);
+Ray rayThrough(const Camera& camera, PhotoPoint pixel) { return rayOf(camera, undistorted(camera, pixel)); }
+
+Ray rayOf(const Camera& camera, glm::dvec2 p) {
   const glm::dmat3 back = glm::transpose(camera.rotation);
   if (camera.model == CameraModel::Orthographic)
     return {toPlant(camera, {{p.x, p.y, 0}}), PlantDirection::along(back * glm::dvec3{0, 0, 1})};

@@ -37,6 +37,9 @@ struct Ray {
 /// Where `pixel` is after the lens distortion is undone, as (x/z, y/z); for an orthographic camera (x, y) in the unit.
 [[nodiscard]] glm::dvec2 undistorted(const Camera& camera, PhotoPoint pixel);
 
+/// The line of what `undistorted` gives; rayThrough is both in one.
+[[nodiscard]] Ray rayOf(const Camera& camera, glm::dvec2 undistortedPoint);
+
 /// What is wrong with the camera of the view called `viewName`, if anything: a number that is not finite, a focal length
 /// or scale that is not above zero, a rotation that is none (columns unit and perpendicular to within 1e-3, determinant +1).
 /// Where `sizePx` is known, also a lens distortion that folds back inside the photo. Unknown cameras pass if their hints are sane.

@@ -14,9 +14,9 @@
 /// not depend on the order of views, nodes or stems, nor on the number of threads.
 /// Source: L-Grammar Generator 2005, section 3.2; docs/measuring.md says how to photograph and what is reported.
 
-#include "skeleton3d/types.hpp"   // Camera, View, ClickedNode, Skeleton
-#include "skeleton3d/camera.hpp"  // plant points to pixels and back
-#include "skeleton3d/photo.hpp"   // photo files, upright
-#include "skeleton3d/solve.hpp"   // clicks to nodes
-#include "skeleton3d/tree.hpp"    // nodes and stems to one checked tree
+#include "skeleton3d/types.hpp"     // Camera, View, ClickedNode, Skeleton
+#include "skeleton3d/camera.hpp"    // plant points to pixels and back
+#include "skeleton3d/photo.hpp"     // photo files, upright
 #include "skeleton3d/estimate.hpp"  // cameras nobody calibrated
+#include "skeleton3d/solve.hpp"     // clicks to nodes
+#include "skeleton3d/tree.hpp"      // nodes and stems to one checked tree

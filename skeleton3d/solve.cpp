@@ -32,7 +32,8 @@ std::vector<Sighting> sightingsOf(std::span<const View> views, const ClickedNode
   std::vector<Sighting> sightings;
   for (const auto& [name, click] : node.clicks) {
     const View* view = detail::findView(views, name);
-    sightings.push_back({view, click, undistorted(view->camera, click), rayThrough(view->camera, click)});
+    const glm::dvec2 straight = undistorted(view->camera, click);
+    sightings.push_back({view, click, straight, rayOf(view->camera, straight)});
   }
   return sightings;
 }
@@ -48,31 +49,26 @@ Angle widestAngle(const std::vector<Sighting>& sightings) {
   return widest;
 }
 
-/// The two equations x_view = x of a click, in pixels at a depth of `depth` so that near and far views weigh alike.
-void addRows(const Sighting& s, double depth, std::vector<detail::LinearRow>& rows) {
+/// The two equations x_view = x of a click, in pixels at the depth of the plant's origin, so that near and far views weigh
+/// about alike.
+void addRows(const Sighting& s, std::vector<detail::LinearRow>& rows) {
   const Camera& camera = s.view->camera;
   const glm::dmat3 r = glm::transpose(camera.rotation);  // r[i]: row i of the rotation
   const bool flat = camera.model == CameraModel::Orthographic;
+  const double depth = std::max(std::abs(camera.translation.z), 1e-6 * glm::length(camera.translation));
   for (int i = 0; i < 2; ++i) {
-    const double weight = flat ? camera.scale_px_per_unit : (*camera.focal_px)[i] / depth;
+    const double weight = flat ? camera.scale_px_per_unit : depth > 0 ? (*camera.focal_px)[i] / depth : 1.0;
     const glm::dvec3 a = flat ? r[i] : r[i] - s.undistorted[i] * r[2];
     const double b = flat ? s.undistorted[i] - camera.translation[i] : s.undistorted[i] * camera.translation.z - camera.translation[i];
     rows.push_back({weight * a, weight * b});
   }
 }
 
-/// Linear triangulation; a second round weighs each view by the depth that the first one found.
 PlantPoint triangulated(const std::vector<Sighting>& sightings) {
-  PlantPoint point;
-  for (int round = 0; round < 2; ++round) {
-    std::vector<detail::LinearRow> rows;
-    for (const Sighting& s : sightings) {
-      const double depth = round == 0 ? 1.0 : std::abs(toView(s.view->camera, point).at.z);
-      addRows(s, std::max(depth, 1e-9), rows);
-    }
-    point.at = detail::solveThree(rows);
-  }
-  return point;
+  std::vector<detail::LinearRow> rows;
+  rows.reserve(2 * sightings.size());
+  for (const Sighting& s : sightings) addRows(s, rows);
+  return {detail::solveThree(rows)};
 }
 
 /// d(pixel)/d(point of the plant), two rows.

@@ -1,0 +1,71 @@
+#include "base/rng.hpp"
+#include "skeleton3d/skeleton3d.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace axil::skeleton3d {
+namespace {
+
+struct Clicks {
+  std::vector<View> views;
+  std::map<std::string, UnknownCameraHints> hints;
+  std::vector<ClickedNode> nodes;
+  std::vector<ClickedStem> stems;
+};
+
+/// A stem with branches of 20 segments each, seen by three perspective cameras with a little distortion; clicks of 1 px noise.
+Clicks clicksOf(int segments) {
+  Clicks made;
+  Rng rng(1);
+  for (const char* name : {"front", "right", "top"}) {
+    View view{name, *nominalCamera(name, {.target = {{0, 0.5, 0}}, .distance = 3, .focal_px = 2200}), {1200, 1600}};
+    view.camera.distortion = {-0.05, 0.01, 0.001, 0.001, 0};
+    made.hints[name] = {project(view.camera, {{0, 0, 0}}), KnownLength{project(view.camera, {{0.1, 0, 0.1}}), project(view.camera, {{0.1, 0.3, 0.13}}), 0.3015}, std::nullopt};
+    made.views.push_back(view);
+  }
+  for (int i = 0; i <= segments; ++i) {
+    const int branch = i / 20, along = i % 20;
+    const double up = branch == 0 ? 0.05 * along : 0.9 * branch / (segments / 20.0) + 0.005 * along, out = branch == 0 ? 0 : 0.02 * along + 0.01;
+    ClickedNode node{NodeId(i), {}, std::nullopt};
+    for (const View& view : made.views) {
+      node.clicks[view.name] = project(view.camera, {{out * std::cos(2.4 * branch), up, out * std::sin(2.4 * branch)}});
+      node.clicks[view.name].px += glm::dvec2{rng.normal(), rng.normal()};
+    }
+    made.nodes.push_back(node);
+    if (along == 0) made.stems.push_back({StemId(branch), branch == 0 ? std::vector<NodeId>{} : std::vector{NodeId(1 + branch % 19)}});
+    made.stems.back().nodes.push_back(NodeId(i));
+  }
+  return made;
+}
+
+void solveNodesBenchmark(benchmark::State& state) {
+  const Clicks clicks = clicksOf(static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(solveNodes(clicks.views, clicks.nodes).has_value());
+}
+BENCHMARK(solveNodesBenchmark)->Name("skeleton3d/solve_nodes")->Arg(300)->Arg(2000)->Unit(benchmark::kMillisecond);
+
+void buildSkeletonBenchmark(benchmark::State& state) {
+  const Clicks clicks = clicksOf(static_cast<int>(state.range(0)));
+  if (const auto tree = buildSkeleton(clicks.views, clicks.nodes, clicks.stems); !tree) state.SkipWithError(tree.error().message.c_str());
+  for (auto _ : state) benchmark::DoNotOptimize(buildSkeleton(clicks.views, clicks.nodes, clicks.stems).has_value());
+}
+BENCHMARK(buildSkeletonBenchmark)->Name("skeleton3d/build_skeleton")->Arg(2000)->Unit(benchmark::kMillisecond);
+
+void estimateCamerasBenchmark(benchmark::State& state) {
+  Clicks clicks = clicksOf(static_cast<int>(state.range(0)));
+  for (View& view : clicks.views) {
+    view.camera.model = CameraModel::Unknown;
+    view.camera.focal_px = glm::dvec2{2190, 2190};
+  }
+  if (const auto cameras = estimateCameras(clicks.views, clicks.hints, clicks.nodes); !cameras) state.SkipWithError(cameras.error().message.c_str());
+  for (auto _ : state) benchmark::DoNotOptimize(estimateCameras(clicks.views, clicks.hints, clicks.nodes).has_value());
+}
+BENCHMARK(estimateCamerasBenchmark)->Name("skeleton3d/estimate_cameras")->Arg(500)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace axil::skeleton3d
