@@ -27,6 +27,9 @@ struct Trait {
   SourceSpan span;
   std::size_t start = 0;
   std::size_t end = 0;
+  std::optional<double> minimum = {};  ///< the outer numbers of "(12-)23-34(-40)", where the text gives them
+  std::optional<double> maximum = {};
+  std::string qualifier = {};  ///< "rarely", "usually", "narrowly", "up to": how far the statement holds; may be empty
 
   friend bool operator==(const Trait&, const Trait&) = default;
 };
@@ -51,6 +54,8 @@ struct Presets {
   std::optional<double> leafLength_m;   ///< middle of the range in the text
   std::optional<double> leafWidth_m;
   std::map<std::string, std::string> evidence;  ///< preset name -> the words that set it
+
+  friend bool operator==(const Presets&, const Presets&) = default;
 };
 
 }  // namespace axil::keywords

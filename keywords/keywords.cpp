@@ -1,1 +1,0 @@
-#include "keywords/types.hpp"

@@ -1,0 +1,84 @@
+#include "keywords/lexicon.hpp"
+
+#include "base/result.hpp"
+
+#include <algorithm>
+
+namespace axil::keywords {
+
+namespace {
+
+struct TextHash {
+  using is_transparent = void;
+  std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>{}(text); }
+};
+// First word -> phrases, longest first.
+using Lexicon = std::unordered_map<std::string, std::vector<Phrase>, TextHash, std::equal_to<>>;
+
+void addTerm(Lexicon& lexicon, const Term& term, const Category& category, const Concept& entry) {
+  const std::vector<std::string> words = wordsOf(term.words);
+  AXIL_ASSERT(!words.empty(), "the vocabulary has an empty term");
+  std::vector<Phrase>& phrases = lexicon[words.front()];
+  auto phrase = std::find_if(phrases.begin(), phrases.end(), [&](const Phrase& p) { return p.words == words; });
+  if (phrase == phrases.end()) phrase = phrases.insert(phrases.end(), Phrase{words, {}});
+  // Traditional and simplified forms are often the same characters.
+  const auto isSame = [&](const Meaning& m) { return m.entry == &entry; };
+  if (std::none_of(phrase->meanings.begin(), phrase->meanings.end(), isSame)) phrase->meanings.push_back({&category, &entry, term.everyday});
+}
+
+Lexicon buildLexicon() {
+  Lexicon lexicon;
+  for (const Category& category : vocabulary())
+    for (const Concept& entry : category.concepts)
+      for (const std::vector<Term>* terms : {&entry.english, &entry.traditional, &entry.simplified})
+        for (const Term& term : *terms) addTerm(lexicon, term, category, entry);
+  for (auto& [word, phrases] : lexicon)
+    std::stable_sort(phrases.begin(), phrases.end(), [](const Phrase& a, const Phrase& b) { return a.words.size() > b.words.size(); });
+  return lexicon;
+}
+
+const Lexicon& lexicon() {
+  static const Lexicon built = buildLexicon();
+  return built;
+}
+
+// The token after the last word of `phrase` where it stands at `first`; 0 when it does not stand there.
+std::size_t endOf(const Phrase& phrase, const std::vector<Token>& tokens, std::size_t first) {
+  std::size_t at = first + 1;
+  for (std::size_t w = 1; w < phrase.words.size(); ++w) {
+    if (at < tokens.size() && tokens[at].text == "-" && tokens[first].kind != TokenKind::Han) ++at;
+    if (at >= tokens.size() || tokens[at].text != phrase.words[w]) return 0;
+    ++at;
+  }
+  return at;
+}
+
+}  // namespace
+
+const Meaning* Found::as(std::string_view property) const {
+  if (phrase == nullptr) return nullptr;
+  for (const Meaning& m : phrase->meanings)
+    if (m.category->property == property) return &m;
+  return nullptr;
+}
+
+const Concept* Found::conceptAs(std::string_view property) const {
+  const Meaning* meaning = as(property);
+  return meaning == nullptr ? nullptr : meaning->entry;
+}
+
+std::vector<Found> findPhrases(const std::vector<Token>& tokens) {
+  std::vector<Found> found(tokens.size());
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    const auto phrases = lexicon().find(tokens[i].text);
+    if (phrases == lexicon().end()) continue;
+    for (const Phrase& phrase : phrases->second)
+      if (const std::size_t end = endOf(phrase, tokens, i); end != 0) {
+        found[i] = {&phrase, i, end};
+        break;
+      }
+  }
+  return found;
+}
+
+}  // namespace axil::keywords

@@ -1,0 +1,161 @@
+#include "keywords/presets.hpp"
+
+#include "base/result.hpp"
+#include "base/text.hpp"
+#include "keywords/lexicon.hpp"
+#include "keywords/vocabulary.hpp"
+#include "organs/leaf.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace axil::keywords {
+
+namespace {
+
+constexpr int mostLeavesPerNode = 1000;
+
+double numberIn(const Concept& entry, std::string_view column) {
+  const auto cell = entry.columns.find(std::string(column));
+  AXIL_ASSERT(cell != entry.columns.end(), "a concept of the vocabulary lacks a number");
+  const std::optional<double> number = parseNumber(cell->second);
+  AXIL_ASSERT(number.has_value(), "a number of the vocabulary is none");
+  return *number;
+}
+
+ArrangementPreset presetFrom(const Concept& entry) {
+  return {entry.name, static_cast<int>(numberIn(entry, "leavesPerNode")), Angle::fromDegrees(numberIn(entry, "divergence_deg")),
+          entry.columns.at("clustered") == "yes"};
+}
+
+const Concept* conceptNamed(std::string_view property, std::string_view name) {
+  for (const Concept& entry : categoryOf(property).concepts)
+    if (entry.name == name) return &entry;
+  return nullptr;
+}
+
+bool isDoubtful(const Trait& trait) { return trait.qualifier == "rarely" || trait.qualifier == "sometimes"; }
+
+bool isLeaf(const Trait& trait, std::string_view property) { return trait.organ == "leaf" && trait.property == property && !isDoubtful(trait); }
+
+bool refines(const Trait& precise, const Trait& wide) {
+  const Concept* entry = conceptNamed("arrangement", precise.value);
+  if (entry == nullptr) return false;
+  const auto cell = entry->columns.find("refines");
+  return cell != entry->columns.end() && cell->second == wide.value;
+}
+
+const Trait* firstOf(const Traits& traits, std::string_view property) {
+  const auto found = std::find_if(traits.begin(), traits.end(), [&](const Trait& t) { return isLeaf(t, property); });
+  return found == traits.end() ? nullptr : &*found;
+}
+
+void setArrangement(Presets& presets, const Traits& traits) {
+  const Trait* chosen = firstOf(traits, "arrangement");
+  if (chosen == nullptr) return;
+  for (const Trait& trait : traits)
+    if (isLeaf(trait, "arrangement") && refines(trait, *chosen)) chosen = &trait;
+  const Concept* entry = conceptNamed("arrangement", chosen->value);
+  AXIL_ASSERT(entry != nullptr, "a trait names an arrangement that the vocabulary does not have");
+  presets.arrangement = presetFrom(*entry);
+  presets.evidence["arrangement"] = chosen->text;
+}
+
+void setLeavesPerNode(Presets& presets, const Traits& traits) {
+  if (!presets.arrangement || presets.arrangement->name != "whorled") return;
+  for (const Trait& trait : traits)
+    if (isLeaf(trait, "count") && trait.unit == "per node" && trait.low && *trait.low >= 1 && *trait.low <= mostLeavesPerNode) {
+      presets.arrangement = withLeavesPerNode(*presets.arrangement, static_cast<int>(std::lround(0.5 * (*trait.low + *trait.high))));
+      presets.evidence["leavesPerNode"] = trait.text;
+      return;
+    }
+}
+
+void setShape(Presets& presets, const Traits& traits) {
+  for (const Trait& trait : traits) {
+    if (!isLeaf(trait, "shape")) continue;
+    const std::string drawn = drawnShapeOf(trait.value);
+    if (drawn.empty()) continue;
+    presets.leafShape = drawn;
+    presets.evidence["leafShape"] = trait.text;
+    return;
+  }
+}
+
+std::optional<double> metresOf(const Trait& trait) {
+  const Concept* unit = conceptNamed("unit", trait.unit);
+  if (unit == nullptr || !trait.high) return std::nullopt;
+  return 0.5 * (trait.low.value_or(*trait.high) + *trait.high) * numberIn(*unit, "metres");
+}
+
+void setSize(std::optional<double>& preset, Presets& presets, const char* name, const Traits& traits, std::string_view property) {
+  const Trait* size = firstOf(traits, property);
+  if (size == nullptr) return;
+  preset = metresOf(*size);
+  if (preset) presets.evidence[name] = size->text;
+}
+
+// "whorled 4", "輪生4": the name, and the number after it.
+struct NameAndCount {
+  std::string name;
+  std::optional<double> count;
+};
+
+NameAndCount splitCount(std::string_view text) {
+  const std::size_t last = text.find_last_not_of("0123456789");
+  if (last == std::string_view::npos || last + 1 == text.size()) return {std::string(text), std::nullopt};
+  return {std::string(text.substr(0, last + 1)), parseNumber(text.substr(last + 1))};
+}
+
+}  // namespace
+
+std::string drawnShapeOf(std::string_view value) {
+  std::string drawn;
+  for (std::size_t begin = 0; begin <= value.size();) {
+    const std::size_t end = std::min(value.find('-', begin), value.size());
+    const Concept* entry = conceptNamed("shape", value.substr(begin, end - begin));
+    if (entry != nullptr && organs::leafShapeNamed(entry->columns.at("shape"))) drawn = entry->columns.at("shape");
+    begin = end + 1;
+  }
+  return drawn;
+}
+
+std::vector<std::string> arrangementNames() {
+  std::vector<std::string> names;
+  for (const Concept& entry : categoryOf("arrangement").concepts) names.push_back(entry.name);
+  return names;
+}
+
+ArrangementPreset withLeavesPerNode(ArrangementPreset preset, int leavesPerNode) {
+  preset.leavesPerNode = std::clamp(leavesPerNode, 1, mostLeavesPerNode);
+  if (preset.name == "whorled") preset.divergence = Angle::fromDegrees(180.0 / preset.leavesPerNode);
+  return preset;
+}
+
+std::optional<ArrangementPreset> arrangementNamed(std::string_view name) {
+  if (!isUtf8(name)) return std::nullopt;
+  const NameAndCount split = splitCount(name);
+  const std::vector<std::string> words = wordsOf(split.name);
+  for (const Concept& entry : categoryOf("arrangement").concepts)
+    for (const std::vector<Term>* terms : {&entry.english, &entry.traditional, &entry.simplified})
+      for (const Term& term : *terms) {
+        if (wordsOf(term.words) != words) continue;
+        const ArrangementPreset preset = presetFrom(entry);
+        if (!split.count) return preset;
+        if (*split.count < 1 || *split.count > mostLeavesPerNode) return std::nullopt;
+        return withLeavesPerNode(preset, static_cast<int>(*split.count));
+      }
+  return std::nullopt;
+}
+
+Presets presetsOf(const Traits& traits) {
+  Presets presets;
+  setArrangement(presets, traits);
+  setLeavesPerNode(presets, traits);
+  setShape(presets, traits);
+  setSize(presets.leafLength_m, presets, "leafLength_m", traits, "length");
+  setSize(presets.leafWidth_m, presets, "leafWidth_m", traits, "width");
+  return presets;
+}
+
+}  // namespace axil::keywords

@@ -1,0 +1,78 @@
+#include "keywords/vocabulary.hpp"
+
+#include "base/table.hpp"
+#include "keywords/data.hpp"
+
+#include <algorithm>
+
+namespace axil::keywords {
+
+namespace {
+
+struct Source {
+  std::string_view property;
+  std::string_view defaultOrgan;
+  std::string_view part;
+  std::string_view table;
+};
+
+std::vector<Source> sources() {
+  return {
+      {"organ", "", "", data::organ},
+      {"unit", "", "", data::unit},
+      {"dimension", "", "", data::dimension},
+      {"stop", "", "", data::stop},
+      {"arrangement", "leaf", "", data::arrangement},
+      {"shape", "leaf", "", data::leaf_shape},
+  };
+}
+
+std::vector<Term> termsIn(const std::string& cell) {
+  std::vector<Term> terms;
+  if (cell == "-") return terms;
+  for (std::string& words : splitList(cell, ',')) {
+    const bool everyday = words.ends_with('?');
+    if (everyday) words.pop_back();
+    terms.push_back({std::move(words), everyday});
+  }
+  return terms;
+}
+
+Concept conceptOf(const Table& table, const Table::Row& row) {
+  Concept entry;
+  entry.name = table.cell(row, "concept");
+  entry.english = termsIn(table.cell(row, "english"));
+  entry.traditional = termsIn(table.cell(row, "traditional"));
+  entry.simplified = termsIn(table.cell(row, "simplified"));
+  entry.definition = table.cell(row, "definition");
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    if (row.cells[i] != "-") entry.columns[table.columns[i]] = row.cells[i];
+  return entry;
+}
+
+std::vector<Category> readVocabulary() {
+  std::vector<Category> categories;
+  for (const Source& source : sources()) {
+    const Result<Table> table = readTable(source.table, source.property);
+    AXIL_ASSERT(table.has_value(), "a vocabulary table has rows of unequal length");
+    Category category{std::string(source.property), std::string(source.defaultOrgan), std::string(source.part), {}};
+    for (const Table::Row& row : table->rows) category.concepts.push_back(conceptOf(*table, row));
+    categories.push_back(std::move(category));
+  }
+  return categories;
+}
+
+}  // namespace
+
+const std::vector<Category>& vocabulary() {
+  static const std::vector<Category> categories = readVocabulary();
+  return categories;
+}
+
+const Category& categoryOf(std::string_view property) {
+  const auto found = std::find_if(vocabulary().begin(), vocabulary().end(), [&](const Category& c) { return c.property == property; });
+  AXIL_ASSERT(found != vocabulary().end(), "the vocabulary is asked for a category that it does not have");
+  return *found;
+}
+
+}  // namespace axil::keywords

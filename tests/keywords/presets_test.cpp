@@ -1,0 +1,142 @@
+#include "keywords/keywords.hpp"
+#include "organs/leaf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace axil::keywords {
+namespace {
+
+Presets presetsFor(std::string_view text) {
+  const Result<Traits> traits = readTraits(text);
+  EXPECT_TRUE(traits) << traits.error().message;
+  return traits ? presetsOf(*traits) : Presets{};
+}
+
+TEST(PresetsOf, SetsWhatTheTextSaysAndNothingElse) {
+  const Presets presets = presetsFor("Leaves opposite, ovate, 3-8 cm long, 20 mm wide.");
+  ASSERT_TRUE(presets.arrangement);
+  EXPECT_EQ(presets.arrangement->name, "opposite");
+  EXPECT_EQ(presets.arrangement->leavesPerNode, 2);
+  EXPECT_EQ(presets.leafShape, "ovate");
+  ASSERT_TRUE(presets.leafLength_m && presets.leafWidth_m);
+  EXPECT_NEAR(*presets.leafLength_m, 0.055, 1e-12);
+  EXPECT_NEAR(*presets.leafWidth_m, 0.020, 1e-12);
+  EXPECT_EQ(presets.evidence.at("leafLength_m"), "3-8 cm long");
+  EXPECT_EQ(presetsFor("Flowers white."), Presets{});
+}
+
+TEST(PresetsOf, TheMorePreciseArrangementCounts) {
+  EXPECT_EQ(presetsFor("Leaves opposite, decussate.").arrangement->name, "decussate");
+  EXPECT_EQ(presetsFor("葉互生,排成二列。").arrangement->name, "distichous");
+  EXPECT_EQ(presetsFor("Leaves opposite, rarely alternate.").arrangement->name, "opposite");
+  EXPECT_EQ(presetsFor("Leaves rarely alternate, opposite.").arrangement->name, "opposite");
+}
+
+TEST(PresetsOf, WhorlsTakeTheirNumber) {
+  const Presets presets = presetsFor("Leaves whorled, 4 leaves per node.");
+  EXPECT_EQ(presets.arrangement->leavesPerNode, 4);
+  EXPECT_NEAR(presets.arrangement->divergence.degrees(), 45, 1e-12);
+  EXPECT_EQ(presets.evidence.at("leavesPerNode"), "4 leaves per node");
+  EXPECT_EQ(presetsFor("五葉輪生。").arrangement->leavesPerNode, 5);
+}
+
+TEST(PresetsOf, OtherOrgansSetNothingForTheLeaf) {
+  const Presets presets = presetsFor("Petals obovate, 2 cm long; bracts opposite.");
+  EXPECT_EQ(presets, Presets{});
+}
+
+TEST(ArrangementNamed, KnowsEveryNameAndWord) {
+  for (const std::string& name : arrangementNames()) {
+    ASSERT_TRUE(arrangementNamed(name)) << name;
+    EXPECT_EQ(arrangementNamed(name)->name, name);
+  }
+  EXPECT_EQ(arrangementNamed("輪生")->name, "whorled");
+  EXPECT_EQ(arrangementNamed("Opposite")->name, "opposite");
+  EXPECT_EQ(arrangementNamed("whorled 6")->leavesPerNode, 6);
+  EXPECT_NEAR(arrangementNamed("whorled 6")->divergence.degrees(), 30, 1e-12);
+  EXPECT_FALSE(arrangementNamed("sideways"));
+  EXPECT_FALSE(arrangementNamed(""));
+  EXPECT_FALSE(arrangementNamed("whorled 0"));
+}
+
+TEST(ArrangementNamed, CarriesTheNumbersOfTheTable) {
+  EXPECT_NEAR(arrangementNamed("distichous")->divergence.degrees(), 180, 1e-12);
+  EXPECT_NEAR(arrangementNamed("tristichous")->divergence.degrees(), 120, 1e-12);
+  EXPECT_NEAR(arrangementNamed("spiral")->divergence.degrees(), 137.508, 1e-3);
+  EXPECT_NEAR(arrangementNamed("decussate")->divergence.degrees(), 90, 1e-12);
+  EXPECT_NEAR(arrangementNamed("spirally decussate")->divergence.degrees(), 68.75, 1e-2);
+  EXPECT_NEAR(arrangementNamed("opposite superposed")->divergence.degrees(), 0, 1e-12);
+  EXPECT_TRUE(arrangementNamed("rosette")->clustered);
+  EXPECT_FALSE(arrangementNamed("alternate")->clustered);
+}
+
+TEST(DrawnShapeOf, EveryShapeOfTheVocabularyCanBeDrawn) {
+  for (const Concept& shape : categoryOf("shape").concepts) EXPECT_TRUE(organs::leafShapeNamed(drawnShapeOf(shape.name))) << shape.name;
+  EXPECT_EQ(drawnShapeOf("ovate-lanceolate"), "lanceolate");
+  EXPECT_EQ(drawnShapeOf("unheard"), "");
+}
+
+TEST(Vocabulary, HasThreeScriptsForEveryConceptAndNoNameTwice) {
+  for (const Category& category : vocabulary()) {
+    std::set<std::string> names;
+    for (const Concept& entry : category.concepts) {
+      EXPECT_TRUE(names.insert(entry.name).second) << category.property << " " << entry.name;
+      EXPECT_FALSE(entry.english.empty()) << entry.name;
+      EXPECT_FALSE(entry.traditional.empty()) << entry.name;
+      EXPECT_FALSE(entry.simplified.empty()) << entry.name;
+      EXPECT_FALSE(entry.definition.empty()) << entry.name;
+    }
+  }
+}
+
+TEST(TraitsJson, IsWhatTheFileFormatSays) {
+  const std::string text = "Leaves ovate, 3-8 cm long.";
+  const Result<Traits> traits = readTraits(text);
+  ASSERT_TRUE(traits);
+  EXPECT_EQ(traitsJson(*traits, presetsOf(*traits)), R"({
+  "traits": [
+    {
+      "organ": "leaf",
+      "property": "shape",
+      "value": "ovate",
+      "text": "ovate",
+      "start": 7,
+      "end": 12
+    },
+    {
+      "organ": "leaf",
+      "property": "length",
+      "low": 3,
+      "high": 8,
+      "unit": "cm",
+      "text": "3-8 cm long",
+      "start": 14,
+      "end": 25
+    }
+  ],
+  "presets": {
+    "leafShape": "ovate",
+    "leafLength_m": 0.055,
+    "evidence": {
+      "leafLength_m": "3-8 cm long",
+      "leafShape": "ovate"
+    }
+  }
+}
+)");
+  EXPECT_NE(traitsJson({}, {}).find("\"traits\": []"), std::string::npos);
+}
+
+TEST(TraitsText, NamesEveryTraitWithItsWords) {
+  const Result<Traits> traits = readTraits("Leaves opposite.");
+  ASSERT_TRUE(traits);
+  const std::string text = traitsText(*traits, presetsOf(*traits));
+  EXPECT_NE(text.find("arrangement"), std::string::npos);
+  EXPECT_NE(text.find("\"opposite\" at 7-15"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace axil::keywords
