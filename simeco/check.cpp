@@ -554,7 +554,10 @@ class Checker {
     if (environment_.contains(n.name)) return since11("names of attributes in expressions", where);
     const auto words = attributeWords();
     const bool isAttribute = std::any_of(words.begin(), words.end(), [&](const AttributeWord& w) { return w.name == n.name; });
-    std::string hint = isAttribute ? "give it a value: " + n.name + " = 1;" : didYouMean(n.name, names);
+    Scope all = names;
+    all.insert(all.end(), globals_.begin(), globals_.end());
+    all.insert(all.end(), environment_.begin(), environment_.end());
+    std::string hint = isAttribute ? "give it a value: " + n.name + " = 1;" : didYouMean(n.name, all);
     if (hint.empty()) hint = "a rule's own names stand in its predecessor, for example S(" + n.name + ") -> ...";
     report_.error(where, "unknown name '" + n.name + "'", hint);
   }
@@ -622,7 +625,7 @@ class Checker {
   }
   bool isNeverMade(const Module& m) const {
     const auto use = uses_.find(m.letter);
-    if (use == uses_.end() || use->second.madeByValue) return false;
+    if (use == uses_.end() || use->second.madeByValue || !organOfLetter(m.letter)) return false;
     if (use->second.made.empty()) return true;
     const Number* number = m.arguments.empty() ? nullptr : numberIn(grammar_, m.arguments[0]);
     return number && !use->second.made.contains(number->value);
@@ -649,8 +652,8 @@ class Checker {
   std::map<std::string, LetterUse> uses_;
   std::map<std::string, std::unordered_map<double, bool>> answered_;
   std::unordered_set<std::string_view> arrays_;
-  std::unordered_set<std::string_view> globals_;
-  std::unordered_set<std::string_view> environment_;
+  std::set<std::string_view> globals_;
+  std::set<std::string_view> environment_;
 };
 
 }  // namespace

@@ -26,13 +26,29 @@ constexpr std::array<OperatorText, 14> kOperators{{{"+", kSum}, {"-", kSum}, {"*
 
 const OperatorText& textOf(BinaryOp op) { return kOperators[static_cast<std::size_t>(op)]; }
 
+/// Whether a literal is written with a minus; -0.0 with decimals is not.
+bool isNegative(const Number& number) { return std::signbit(number.value) && simeco::textOf(number).starts_with('-'); }
+
+/// Block comments, and at most one line comment after them.
+bool isComment(std::string_view text) {
+  while (!text.empty()) {
+    if (text.starts_with("//")) return text.find('\n') == std::string_view::npos;
+    const std::size_t end = text.starts_with("/*") ? text.find("*/", 2) : std::string_view::npos;
+    if (end == std::string_view::npos) return false;
+    text.remove_prefix(end + 2);
+    while (text.starts_with(' ')) text.remove_prefix(1);
+  }
+  return true;
+}
+
 bool isTurn(const std::string& letter) { return letter == "rotr" || letter == "rotu"; }
 
 class Printer {
  public:
-  explicit Printer(const Grammar& grammar) : grammar_(grammar) { out_.reserve(grammar.expressions.size() * 20 + 256); }
+  explicit Printer(const Grammar& grammar) : grammar_(grammar) {}
 
   std::string file() {
+    out_.reserve(grammar_.expressions.size() * 20 + 256);
     lines(grammar_.comments.before);
     out_ += "EcoSystem " + grammar_.version + ' ';
     quoted(grammar_.name);
@@ -60,8 +76,7 @@ class Printer {
   }
   /// A comment as it can stand in a text: one that lacks its // gets it, line by line.
   void comment(std::string_view text) {
-    const bool block = text.size() >= 4 && text.starts_with("/*") && text.find("*/", 2) == text.size() - 2;
-    if (block || (text.starts_with("//") && text.find('\n') == std::string_view::npos)) {
+    if (isComment(text)) {
       out_ += text;
       return;
     }
@@ -313,7 +328,7 @@ class Printer {
   }
   void weight(ExprId id) {
     const auto* number = std::get_if<Number>(&grammar_.at(id).node);
-    if (number && !std::signbit(number->value)) return expression(id, kChoice);
+    if (number && !isNegative(*number)) return expression(id, kChoice);
     out_ += '(';
     expression(id, kChoice);
     out_ += ')';
@@ -332,7 +347,8 @@ class Printer {
       const Module& m = list[i];
       const bool opens = m.letter == "[";
       const bool closes = m.letter == "]";
-      const bool tight = i == 0 || closes || list[i - 1].letter == "[" || (turned && !opens);
+      const bool apart = out_.ends_with(')') || out_.ends_with(']');  // else two letters would read as one word
+      const bool tight = i == 0 || closes || list[i - 1].letter == "[" || (turned && !opens && apart);
       if (!tight) out_ += ' ';
       turned = !opens && !closes && (turned || isTurn(m.letter));
       module(m, &m == carrier ? condition : std::nullopt);
@@ -411,7 +427,7 @@ class Printer {
     if (enclosed) out_ += ')';
   }
   static Binding bindingOf(const ExprNode& node) {
-    if (const auto* number = std::get_if<Number>(&node)) return std::signbit(number->value) ? kUnary : kPrimary;
+    if (const auto* number = std::get_if<Number>(&node)) return isNegative(*number) ? kUnary : kPrimary;
     if (const auto* binary = std::get_if<Binary>(&node)) return textOf(binary->op).binding;
     if (std::holds_alternative<Chain>(node)) return kCompare;
     if (std::holds_alternative<Unary>(node)) return kUnary;
@@ -442,7 +458,7 @@ class Printer {
     out_ += sign.text;
     const bool arithmetic = sign.binding == kSum || sign.binding == kProduct;
     const auto* number = std::get_if<Number>(&grammar_.at(n.right).node);
-    const bool negative = arithmetic && number && std::signbit(number->value);
+    const bool negative = arithmetic && number && isNegative(*number);
     expression(n.right, negative ? kPrimary : above(sign.binding));
   }
   void expression(const Chain& n) {

@@ -357,11 +357,13 @@ class Parser {
     advance();
   }
   std::string nameOf(const char* what) {
-    if (!is(TokenKind::Text)) {
+    const bool bare = is(TokenKind::Word) && !token_.startsLine;
+    if (!bare && !is(TokenKind::Text)) {
       slip(gap(), std::string("the ") + what + "'s name is missing", "write it in quotes: \"name\"");
       return {};
     }
-    std::string name = unquoted(textOf(token_));
+    std::string name = bare ? std::string(textOf(token_)) : unquoted(textOf(token_));
+    if (bare) slip(token_.span, std::string("the ") + what + "'s name must stand in quotes", "write \"" + name + "\"");
     advance();
     return name;
   }
@@ -394,12 +396,14 @@ class Parser {
   bool isBlockWord(std::string_view keyword, TokenKind next) {
     if (!is(TokenKind::Word)) return false;
     const std::string_view word = textOf(token_);
-    if (word == keyword) return peek().kind == next || peek().kind == TokenKind::LeftBrace;
+    if (word == keyword) return peek().kind == next || peek().kind == TokenKind::LeftBrace || (word == "Grow" && losesBrace());
     const std::string_view known[] = {keyword};
     if (peek().kind != next || nearest(word, known).empty()) return false;
     slip(token_.span, "unknown word '" + std::string(word) + "'", didYouMean(word, known));
     return true;
   }
+  /// A keyword alone on its line: its { is missing.
+  [[nodiscard]] bool losesBrace() { return token_.startsLine && peek().startsLine && peek().kind == TokenKind::Word; }
   [[nodiscard]] bool isModuleStart() { return is(TokenKind::LeftBracket) || (is(TokenKind::Word) && peek().kind == TokenKind::LeftParen); }
 
   void plant() {
@@ -451,9 +455,12 @@ class Parser {
 
   /// The organ whose block starts here; a keyword that is nearly one counts, and is reported.
   std::optional<OrganKind> organHere() {
-    if (!is(TokenKind::Word) || peek().kind != TokenKind::LeftBrace) return std::nullopt;
+    if (!is(TokenKind::Word)) return std::nullopt;
     const std::string_view word = textOf(token_);
-    if (const auto kind = organOfKeyword(word)) return kind;
+    const auto kind = organOfKeyword(word);
+    if (kind && losesBrace()) return kind;
+    if (peek().kind != TokenKind::LeftBrace) return std::nullopt;
+    if (kind) return kind;
     constexpr std::string_view known[] = {"Apex", "Stem", "Leaf", "Root", "Fruit", "Flower", "Grow"};
     const std::string_view meant = nearest(word, known);
     if (meant.empty() || meant == "Grow") return std::nullopt;
@@ -484,20 +491,19 @@ class Parser {
     stage.comments = leading();
     const std::uint32_t begin = token_.span.begin;
     advance();
-    stage.number = stageNumber();
+    const std::optional<int> number = stageNumber();
     stage.where = spanFrom(begin);
     openBlock(Level::Stage, stage.where, stage.comments);
     while (!blockEnds(Level::Stage)) attribute(stage.attributes, Level::Stage);
     closeBlock(stage.comments);
+    if (!number) return;
+    stage.number = *number;
     block.stages.push_back(std::move(stage));
   }
-  int stageNumber() {
-    if (!is(TokenKind::Number)) {
-      slip(gap(), "a Stage needs its number", "write Stage 1 { ... }");
-      return 0;
-    }
-    const int number = wholeNumber<int>("a stage's number", "0 to 2147483647").value_or(0);
-    return number;
+  std::optional<int> stageNumber() {
+    if (is(TokenKind::Number)) return wholeNumber<int>("a stage's number", "0 to 2147483647");
+    slip(gap(), "a Stage needs its number", "write Stage 1 { ... }");
+    return std::nullopt;
   }
   template <class T>
   std::optional<T> wholeNumber(const char* what, const char* range) {
@@ -505,7 +511,7 @@ class Parser {
     const std::string_view said = textOf(token_);
     const auto [end, code] = std::from_chars(said.data(), said.data() + said.size(), value);
     const bool good = is(TokenKind::Number) && code == std::errc{} && end == said.data() + said.size();
-    if (!good) slip(is(TokenKind::End) ? gap() : token_.span, std::string(what) + " must be a whole number, " + range + ", but here " + seen());
+    if (!good) error(is(TokenKind::End) ? gap() : token_.span, std::string(what) + " must be a whole number, " + range + ", but here " + seen());
     if (is(TokenKind::Number)) advance();
     return good ? std::optional<T>(value) : std::nullopt;
   }
@@ -582,6 +588,7 @@ class Parser {
     advance();
     advance();
     std::vector<Module> axiom = modules(Role::Axiom);
+    splitRule(axiom);
     endItem("axiom");
     trailing(comments);
     if (!first) return;
@@ -716,6 +723,7 @@ class Parser {
     if (is(TokenKind::Colon)) conditions(production);
     if (expect(TokenKind::Arrow, "between a rule's two sides")) successors(production);
     placeCondition(production);
+    if (production.successors.empty()) production.successors.emplace_back();
     endItem("rule");
     production.where.end = std::max(production.where.begin, previousEnd_);
     trailing(production.comments);
@@ -758,22 +766,22 @@ class Parser {
       successor.modules = modules(Role::Successor);
       production.successors.push_back(std::move(successor));
     } while (!panic_ && take(TokenKind::Bar));
-    if (is(TokenKind::Arrow) || is(TokenKind::Less) || is(TokenKind::Greater) || is(TokenKind::Colon)) splitRule(production.successors.back());
+    splitRule(production.successors.back().modules);
   }
   ExprId weight() {
     const ExprId value = is(TokenKind::Number) ? primary() : parenthesised();
     expect(TokenKind::Colon, "after a successor's weight");
     return value;
   }
-  /// A rule ran on into the next because its ; is missing: give back the line that is the next rule.
-  void splitRule(Successor& successor) {
-    if (panic_) return;
+  /// A rule or axiom ran on into the next rule because its ; is missing: give back the line that is the next rule.
+  void splitRule(std::vector<Module>& modules) {
+    if (panic_ || (!is(TokenKind::Arrow) && !is(TokenKind::Less) && !is(TokenKind::Greater) && !is(TokenKind::Colon))) return;
     if (!lineStart_) return error(token_.span, "'" + std::string(textOf(token_)) + "' stands in a rule for the second time", "is a ';' missing before it?");
-    successor.modules.resize(lineStart_->modules);
-    const Token start = lineStart_->token;
-    rewind(start);
-    previousEnd_ = lineStart_->previousEnd;
-    hoisted_ = lineStart_->hoisted;
+    const LineStart start = *lineStart_;
+    modules.resize(start.modules);
+    rewind(start.token);
+    previousEnd_ = start.previousEnd;
+    hoisted_ = start.hoisted;
   }
 
   // ---- modules ----
@@ -810,7 +818,8 @@ class Parser {
   }
   /// One letter, as it is written in a rule.
   std::string letter() {
-    std::string name(textOf(token_));
+    // A bracket may have been written in its wide form.
+    std::string name(is(TokenKind::LeftBracket) ? "[" : is(TokenKind::RightBracket) ? "]" : textOf(token_));
     const bool query = is(TokenKind::Question);
     advance();
     if (query && is(TokenKind::Word)) {
@@ -858,10 +867,22 @@ class Parser {
     Block statements;
     if (!expect(TokenKind::LeftBrace, "before the statements")) return statements;
     if (++nesting_ > kMostDepth) error(token_.span, "statements are nested deeper than " + std::to_string(kMostDepth));
-    while (!panic_ && !is(TokenKind::RightBrace) && !is(TokenKind::End)) statements.push_back(statement());
+    while (!is(TokenKind::RightBrace) && !is(TokenKind::End) && !is(TokenKind::Arrow)) {
+      if (!panic_) statements.push_back(statement());
+      if (panic_) skipStatement();
+    }
     --nesting_;
     if (!panic_) expect(TokenKind::RightBrace, "after the statements");
     return statements;
+  }
+  void skipStatement() {
+    panic_ = false;
+    std::size_t depth = 0;
+    for (; !is(TokenKind::End) && !is(TokenKind::Arrow); advance()) {
+      if (is(TokenKind::LeftBrace)) ++depth;
+      if (is(TokenKind::RightBrace) && depth-- == 0) return;
+      if (is(TokenKind::Semicolon) && depth == 0) return advance();
+    }
   }
   Statement statement() {
     Statement made;
