@@ -66,6 +66,8 @@ class LSystemParser : private LSystemReader {
       first = false;
     }
     takeComments(text_.size() + 1, grammar_.closing);
+    // Without a length the result is the axiom.
+    if (!grammar_.plants[0].rules.derivationLength) grammar_.plants[0].rules.derivationLength = grammar_.add(Number{0, -1});
     grammar_.name = grammar_.plants[0].name = grammar_.plants[0].rules.label;
   }
 

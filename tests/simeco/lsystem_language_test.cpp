@@ -144,6 +144,12 @@ TEST(LSystemLanguage, PlacesAreThoseOfTheTextBeforeMacros) {
   EXPECT_EQ(words(rules.productions[1].successors[0].modules[1].where), "D");
 }
 
+TEST(LSystemLanguage, WithoutADerivationLengthNothingIsDerived) {
+  const Grammar grammar = parseLSystem("Lsystem: 1\nAxiom: A\nA --> AB\nendlsystem\n").grammar;
+  ASSERT_TRUE(grammar.plants[0].rules.derivationLength);
+  EXPECT_EQ(print(grammar), "Lsystem: 1\nderivation length: 0\nAxiom: A\nA --> AB\nendlsystem\n");
+}
+
 TEST(LSystemLanguage, DeepNestingIsRefusedNotFollowed) {
   const auto deep = [](const std::string& expression) { return "Lsystem: 1\nAxiom: A(" + expression + ")\nA --> A\nendlsystem\n"; };
   const auto repeated = [](const std::string& part, int times) {
@@ -296,7 +302,7 @@ class Chance {
     if (one(3)) r.filter = {one(2) ? ContextFilter::Mode::Ignore : ContextFilter::Mode::Consider, {"+", "/", "/", "\\"}};
     r.ring = one(3);
     if (one(3)) r.seed = rng_.below(1000);
-    if (one(2)) r.derivationLength = expression(2);
+    if (label == "1" || one(2)) r.derivationLength = expression(2);
     if (one(3)) r.arrays.push_back({"arr", {2, 3}, {expression(2), expression(1), expression(1), expression(1), expression(1), expression(1)}});
     if (one(3)) r.externals = {"x", "y"};
     if (one(3)) r.start = block(3);

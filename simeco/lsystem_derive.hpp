@@ -1,0 +1,20 @@
+#pragma once
+/// \file
+/// Deriving an L-system that asks where its turtle is: before each step, and once after the last, the string is interpreted as
+/// it is drawn, and `?P ?H ?L ?U` receive their values (docs/lsystem.md, "Queries"). Grammars without queries are derived
+/// exactly as by `derive`.
+
+#include "simeco/derive.hpp"
+#include "simeco/lsystem_view.hpp"
+
+namespace axil::simeco {
+
+struct DeriveLSystemOptions {
+  DeriveOptions derive = {};
+  LSystemView view = {};
+};
+
+/// Fails as `derive` and `interpret` do.
+[[nodiscard]] Result<Derivation> deriveLSystem(const Grammar& grammar, const DeriveLSystemOptions& options = {});
+
+}  // namespace axil::simeco

@@ -1,0 +1,175 @@
+// What L-systems derive: the cases of lsystem/*.l, and every shared model against the string that the reference program wrote.
+
+#include "base/files.hpp"
+#include "simeco/lsystem_derive.hpp"
+#include "simeco/lsystem_language.hpp"
+#include "simeco/lsystem_text.hpp"
+#include "support/shared_data.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+namespace axil::simeco {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+Grammar grammarOf(const fs::path& path) {
+  Parsed parsed = parseLSystem(readFile(path).value(), {.include = includesBeside(path)});
+  EXPECT_TRUE(parsed.ok()) << path << ": " << parsed.diagnostics.front().message;
+  return std::move(parsed.grammar);
+}
+
+std::vector<fs::path> lFilesIn(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".l") paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+TEST(LSystemDerivation, EachCaseDerivesTheStringThatItAnnounces) {
+  int strings = 0;
+  for (const fs::path& path : lFilesIn(fs::path(AXIL_TEST_DIR) / "lsystem")) {
+    const std::string text = readFile(path).value();
+    const std::string mark = "// expect: ";
+    const std::size_t at = text.find(mark);
+    if (at == std::string::npos) continue;
+    std::string expected = text.substr(at + mark.size(), text.find('\n', at) - at - mark.size());
+    std::erase(expected, '\r');
+    const auto derived = deriveLSystem(grammarOf(path));
+    ASSERT_TRUE(derived) << path.filename() << ": " << derived.error().message;
+    EXPECT_EQ(toLSystemText(derived->string), expected) << path.filename();
+    ++strings;
+  }
+  EXPECT_GE(strings, 15);
+}
+
+/// A number in `text` from `at` on, with its end.
+struct Numeral {
+  double value = 0;
+  std::size_t end = 0;
+};
+std::optional<Numeral> numeralAt(const std::string& text, std::size_t at) {
+  const char c = text[at];
+  const bool starts = (c >= '0' && c <= '9') || c == '-' || c == 'i' || c == 'n';
+  if (!starts) return std::nullopt;
+  const std::size_t end = std::min(text.find_first_of(",)", at), text.size());
+  char* stopped = nullptr;
+  const std::string word = text.substr(at, end - at);
+  const double value = std::strtod(word.c_str(), &stopped);
+  if (*stopped != '\0') return std::nullopt;
+  return Numeral{value, end};
+}
+
+bool sameNumber(double a, double b, double tolerance) {
+  if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
+  if (std::isinf(a) || std::isinf(b)) return a == b;
+  return std::fabs(a - b) <= std::max(tolerance, 1e-5 * std::max(std::fabs(a), std::fabs(b)));
+}
+
+/// Letters equal, numbers in parentheses within 1e-5 of each other (or `tolerance`); the first difference, else empty.
+std::string difference(const std::string& ours, const std::string& theirs, double tolerance) {
+  std::size_t i = 0, j = 0;
+  while (i < ours.size() && j < theirs.size()) {
+    const bool number = i > 0 && (ours[i - 1] == '(' || ours[i - 1] == ',');
+    const auto a = number ? numeralAt(ours, i) : std::nullopt;
+    const auto b = number ? numeralAt(theirs, j) : std::nullopt;
+    if (a && b && sameNumber(a->value, b->value, tolerance)) {
+      i = a->end;
+      j = b->end;
+    } else if (ours[i] == theirs[j]) {
+      ++i, ++j;
+    } else {
+      break;
+    }
+  }
+  if (i == ours.size() && j == theirs.size()) return {};
+  return "ours ..." + ours.substr(i < 20 ? 0 : i - 20, 60) + "\ntheirs ..." + theirs.substr(j < 20 ? 0 : j - 20, 60);
+}
+
+std::string expectedText(const fs::path& path) {
+  std::string text = readFile(path).value();
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+/// Only the reference program's own rounding decides these.
+const std::map<std::string, bool> kSingle{{"math_single_precision", true}, {"math_single_precision_compare", true}};
+
+class Model {
+ public:
+  explicit Model(const fs::path& path) : path_(path), grammar_(grammarOf(path)), facts_(json::parse(readFile(fs::path(path).replace_extension(".json")).value())) {}
+
+  void check() {
+    if (facts_.contains("letter_counts")) return counts();
+    compare(std::nullopt, path_.stem().string() + ".expected");
+    if (facts_.contains("runs"))
+      for (const json& run : facts_["runs"]) compare(run["steps"].get<std::int64_t>(), run["expected"].get<std::string>());
+    if (facts_.contains("homomorphism_expected")) image(facts_["homomorphism_expected"].get<std::string>());
+  }
+
+ private:
+  Result<Derivation> derived(std::optional<std::int64_t> steps) {
+    DeriveLSystemOptions options;
+    options.derive.steps = steps;
+    options.derive.singlePrecision = kSingle.contains(path_.stem().string());
+    return deriveLSystem(grammar_, options);
+  }
+
+  void compare(std::optional<std::int64_t> steps, const std::string& file) {
+    const auto result = derived(steps);
+    ASSERT_TRUE(result) << path_.filename() << ": " << result.error().message << (result.error().details.empty() ? "" : "\n" + result.error().details[0]);
+    expectText(toLSystemText(result->string), file);
+  }
+
+  void image(const std::string& file) {
+    const auto result = derived(std::nullopt);
+    ASSERT_TRUE(result) << path_.filename() << ": " << result.error().message;
+    const auto drawn = imageOf(*result);
+    ASSERT_TRUE(drawn) << path_.filename() << ": " << drawn.error().message;
+    expectText(toLSystemText(drawn->string), file);
+  }
+
+  void expectText(const std::string& ours, const std::string& file) {
+    const double tolerance = facts_.value("tolerance", 0.0);
+    EXPECT_EQ(difference(ours, expectedText(path_.parent_path() / file), tolerance), "") << file;
+  }
+
+  /// The counts of a stochastic model lie within five standard deviations of as many even draws as it has modules.
+  void counts() {
+    const auto result = derived(std::nullopt);
+    ASSERT_TRUE(result) << path_.filename() << ": " << result.error().message;
+    const auto ours = letterCounts(result->string);
+    for (const auto& [letter, count] : facts_["letter_counts"].items()) {
+      const double theirs = count.get<double>();
+      const auto found = ours.find(letter);
+      const double mine = found == ours.end() ? 0 : static_cast<double>(found->second);
+      EXPECT_NEAR(mine, theirs, 5 * std::sqrt(2 * theirs)) << path_.filename() << " " << letter;
+    }
+    for (const auto& [letter, count] : ours) EXPECT_TRUE(facts_["letter_counts"].contains(letter)) << path_.filename() << " " << letter;
+  }
+
+  fs::path path_;
+  Grammar grammar_;
+  json facts_;
+};
+
+TEST(LSystemDerivation, EverySharedModelDerivesTheReferenceString) {
+  AXIL_SKIP_WITHOUT_SHARED("data/lsystems/models");
+  int models = 0;
+  for (const fs::path& path : lFilesIn(test::sharedPath("data/lsystems/models"))) {
+    Model(path).check();
+    ++models;
+  }
+  EXPECT_GE(models, 113);
+}
+
+}  // namespace
+}  // namespace axil::simeco
