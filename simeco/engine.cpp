@@ -10,7 +10,9 @@ namespace {
 
 /// Bytes of everything a step holds at once.
 std::size_t held(const Engine::State& s) {
-  return s.string.bytes() + s.spare.codes.bytes() + s.spare.parameters.bytes() + s.around.bytes();
+  std::size_t bytes = s.string.bytes() + s.spare.codes.bytes() + s.spare.parameters.bytes() + s.around.bytes() + s.rightCodes.bytes();
+  for (const Lane& lane : s.lanes) bytes += lane.own.codes.bytes() + lane.own.parameters.bytes();
+  return bytes;
 }
 
 std::string stepText(std::int64_t step) { return "in step " + std::to_string(step + 1); }
@@ -41,6 +43,15 @@ void describeRules(Engine::State& s) {
       }
     }
   }
+}
+
+bool isPlain(const Engine::State& s) {
+  const Program& program = *s.program;
+  const System& main = program.main();
+  if (s.options.generalWay || program.systems.size() > 1 || program.enter >= 0 || main.ring || !main.decomposition.empty()) return false;
+  if (hasStatements(main.productions)) return false;
+  if (program.cut >= 0 && main.productions.bySymbol[static_cast<std::size_t>(program.cut)].all.empty()) return false;
+  return std::all_of(main.productions.rules.begin(), main.productions.rules.end(), [](const CompiledRule& r) { return r.predecessor.size() == 1; });
 }
 
 }  // namespace
@@ -121,7 +132,12 @@ Result<std::shared_ptr<Engine>> Engine::create(std::shared_ptr<const Program> pr
   s.fired.assign(s.program->main().productions.rules.size(), 0);
   for (const System& system : s.program->systems) s.fired.resize(std::max(s.fired.size(), system.productions.rules.size()));
   describeRules(s);
-  s.plain = false;
+  s.plain = isPlain(s);
+  if (s.plain) {
+    s.plans = std::make_unique<Plans>(planFor(*s.program));
+    s.workers = std::make_unique<Workers>(s.options.threads);
+    s.lanes.resize(s.machines.size());
+  }
   return std::shared_ptr<Engine>(new Engine(std::move(state)));
 }
 
@@ -168,7 +184,7 @@ Result<Engine::Outcome> Engine::step(StepTrace* trace) {
   std::fill(s.fired.begin(), s.fired.end(), 0);
   s.spare.codes.clear();
   s.spare.parameters.clear();
-  const auto fired = s.generalStep(trace);
+  const auto fired = s.plain && trace == nullptr ? s.plainStep() : s.generalStep(trace);
   if (!fired) return fired.failure();
   s.notePeak(0);
   if (held(s) > s.options.limits.bytes) return s.tooMany("bytes", s.options.limits.bytes, nullptr);

@@ -5,7 +5,9 @@
 #include "simeco/engine.hpp"
 #include "simeco/engine_machine.hpp"
 #include "simeco/engine_match.hpp"
+#include "simeco/engine_plan.hpp"
 #include "simeco/engine_surroundings.hpp"
+#include "simeco/engine_workers.hpp"
 
 #include <optional>
 #include <vector>
@@ -16,6 +18,17 @@ namespace axil::simeco {
 struct Arrays {
   Buffer<SymbolCode> codes;
   Buffer<double> parameters;
+};
+
+/// What one thread makes in a step of the plain way.
+struct Lane {
+  Arrays own;                        ///< not used by the first lane, which writes in place
+  Arrays* out = nullptr;
+  Buffer<SymbolCode> stack;
+  std::vector<double> locals, frames;
+  std::vector<std::pair<const CompiledRule*, double*>> applicable;
+  std::size_t fired = 0;
+  std::optional<Error> error;
 };
 
 /// Which draws belong to what: each has its own streams, so none shifts another.
@@ -37,6 +50,10 @@ struct Engine::State {
   Rng random{0};
   std::int64_t steps = 0;
   std::size_t peak = 0;
+  std::unique_ptr<Plans> plans;    ///< of the plain way
+  std::unique_ptr<Workers> workers;
+  std::vector<Lane> lanes;
+  Buffer<SymbolCode> rightCodes;   ///< right neighbour of every module
   bool walking = false;            ///< sub-L-systems: contexts walk, since ignored letters differ
   bool plain = false;
   bool timeless = false;           ///< a string that one step leaves as it is stays so
@@ -47,7 +64,8 @@ struct Engine::State {
 
   [[nodiscard]] Machine& machine() { return machines.front(); }
   [[nodiscard]] OldString oldString() const { return {string.codes(), string.parameters()}; }
-  [[nodiscard]] Rng stream(Stream which, std::uint64_t a, std::uint64_t b = 0) const { return random.split(static_cast<std::uint64_t>(which)).split(a, b); }
+  [[nodiscard]] Rng stream(Stream which) const { return random.split(static_cast<std::uint64_t>(which)); }
+  [[nodiscard]] Rng stream(Stream which, std::uint64_t a, std::uint64_t b = 0) const { return stream(which).split(a, b); }
 
   /// The error of a machine in trouble, with the rule and step it happened at.
   [[nodiscard]] Failure failure(const Error& error, const CompiledRule* rule) const;

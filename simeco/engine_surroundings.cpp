@@ -45,17 +45,17 @@ SurroundingNeeds needsOf(const Program& program) {
 void Surroundings::readLeft(const Program& program, const std::array<bool, 256>& ignored, std::span<const SymbolCode> codes) {
   const auto roles = rolesOf(program, ignored);
   left_.setSize(codes.size());
-  stack_.clear();
+  leftStack_.clear();
   std::uint32_t last = nowhere;
   for (std::size_t i = 0; i < codes.size(); ++i) {
     left_[i] = last;
     switch (roles[codes[i]]) {
       case Role::Considered: last = static_cast<std::uint32_t>(i); break;
       case Role::Ignored: break;
-      case Role::Opens: stack_.push(last); break;
+      case Role::Opens: leftStack_.push(last); break;
       case Role::Closes:
-        last = stack_.size() == 0 ? nowhere : stack_[stack_.size() - 1];
-        if (stack_.size() > 0) stack_.setSize(stack_.size() - 1);
+        last = leftStack_.size() == 0 ? nowhere : leftStack_[leftStack_.size() - 1];
+        if (leftStack_.size() > 0) leftStack_.setSize(leftStack_.size() - 1);
         break;
     }
   }
@@ -85,13 +85,13 @@ void Surroundings::readRight(const Program& program, const std::array<bool, 256>
 
 void Surroundings::readBrackets(const Program& program, std::span<const SymbolCode> codes) {
   partner_.setSize(codes.size());
-  stack_.clear();
+  bracketStack_.clear();
   for (std::size_t i = 0; i < codes.size(); ++i) {
     partner_[i] = nowhere;
-    if (program.opens[codes[i]]) stack_.push(static_cast<std::uint32_t>(i));
-    if (!program.closes[codes[i]] || stack_.size() == 0) continue;
-    const std::uint32_t open = stack_[stack_.size() - 1];
-    stack_.setSize(stack_.size() - 1);
+    if (program.opens[codes[i]]) bracketStack_.push(static_cast<std::uint32_t>(i));
+    if (!program.closes[codes[i]] || bracketStack_.size() == 0) continue;
+    const std::uint32_t open = bracketStack_[bracketStack_.size() - 1];
+    bracketStack_.setSize(bracketStack_.size() - 1);
     partner_[i] = open;
     partner_[open] = static_cast<std::uint32_t>(i);
   }

@@ -39,10 +39,11 @@ class Surroundings {
   [[nodiscard]] std::uint32_t partner(std::size_t module) const { return partner_[module]; }
   /// Where the module's parameters start.
   [[nodiscard]] std::uint32_t offset(std::size_t module) const { return offset_[module]; }
-  [[nodiscard]] std::size_t bytes() const { return left_.bytes() + right_.bytes() + partner_.bytes() + offset_.bytes() + stack_.bytes(); }
+  [[nodiscard]] std::size_t bytes() const { return left_.bytes() + right_.bytes() + partner_.bytes() + offset_.bytes(); }
 
  private:
-  Buffer<std::uint32_t> left_, right_, partner_, offset_, stack_, rightStack_;
+  Buffer<std::uint32_t> left_, right_, partner_, offset_;
+  Buffer<std::uint32_t> leftStack_, rightStack_, bracketStack_;  // one each, so that the tables can be read at the same time
 };
 
 }  // namespace axil::simeco

@@ -1,0 +1,474 @@
+// The plain way: the string is cut into as many parts as there are threads, each thread rewrites its part into a lane of its own,
+// and the lanes are put together. Rules have no effects here, so nothing depends on who comes first.
+
+#include "simeco/engine_state.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace axil::simeco {
+
+namespace {
+
+/// Up to 32 bytes are copied without asking how many; both sides have room behind their end.
+inline void copyCodes(SymbolCode* to, const Plan& plan) {
+  if (plan.length <= 16) {
+    std::memcpy(to, plan.codes.data(), 16);
+  } else if (plan.length <= 32) {
+    std::memcpy(to, plan.codes.data(), 32);
+  } else {
+    std::memcpy(to, plan.successor->codes.data(), plan.length);
+  }
+}
+
+inline void copyNumbers(double* to, const double* from, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) to[i] = from[i];
+}
+
+/// Who stands to the left of a part's first module, found by walking from there, further with every bracket that closes.
+class LeftFringe {
+ public:
+  LeftFringe(const Plans& plans, std::span<const SymbolCode> codes, std::size_t begin) : plans_(plans), codes_(codes), at_(begin) {}
+
+  /// The nearest considered module of this level or of those that carry it.
+  SymbolCode nearest() {
+    std::size_t depth = 0;
+    for (std::size_t i = at_; i-- > 0;) {
+      const std::uint8_t role = plans_.roles[codes_[i]];
+      if (role == Plans::Closes) ++depth;
+      if (role == Plans::Opens && depth > 0) --depth;
+      if (role == Plans::Considered && depth == 0) return codes_[i];
+    }
+    return nobody();
+  }
+  /// Leaves the branch: to before the bracket that opened it.
+  void leave() {
+    std::size_t depth = 0;
+    while (at_ > 0) {
+      const std::uint8_t role = plans_.roles[codes_[--at_]];
+      if (role == Plans::Closes) ++depth;
+      if (role == Plans::Opens && depth-- == 0) return;
+    }
+  }
+  [[nodiscard]] SymbolCode nobody() const { return static_cast<SymbolCode>(plans_.codes); }
+
+ private:
+  const Plans& plans_;
+  std::span<const SymbolCode> codes_;
+  std::size_t at_;
+};
+
+/// Who stands to the right of a part's last module.
+class RightFringe {
+ public:
+  RightFringe(const Plans& plans, std::span<const SymbolCode> codes, std::size_t end) : plans_(plans), codes_(codes), at_(end) {}
+
+  SymbolCode nearest() const {
+    std::size_t depth = 0;
+    for (std::size_t i = at_; i < codes_.size(); ++i) {
+      const std::uint8_t role = plans_.roles[codes_[i]];
+      if (role == Plans::Opens) ++depth;
+      if (role == Plans::Closes && depth-- == 0) break;
+      if (role == Plans::Considered && depth == 0) return codes_[i];
+    }
+    return nobody();
+  }
+  void leave() {
+    std::size_t depth = 0;
+    while (at_ < codes_.size()) {
+      const std::uint8_t role = plans_.roles[codes_[at_++]];
+      if (role == Plans::Opens) ++depth;
+      if (role == Plans::Closes && depth-- == 0) return;
+    }
+  }
+  [[nodiscard]] SymbolCode nobody() const { return static_cast<SymbolCode>(plans_.codes); }
+
+ private:
+  const Plans& plans_;
+  std::span<const SymbolCode> codes_;
+  std::size_t at_;
+};
+
+/// Rewrites one part of the string.
+class PartPass {
+ public:
+  PartPass(Engine::State& state, Machine& machine, Lane& lane)
+      : s_(state), plans_(*state.plans), program_(*state.program), machine_(machine), lane_(lane), old_(state.oldString()),
+        matcher_(program_, program_.main(), old_, state.around, false), choices_(state.stream(Stream::Choice)), successors_(state.stream(Stream::Successor)),
+        step_(static_cast<std::uint64_t>(state.steps)), stochastic_(program_.main().stochastic), finite_(program_.language == Language::SimEco),
+        single_(state.options.singlePrecision) {
+    std::size_t frame = 1;
+    for (const CompiledRule& rule : program_.main().productions.rules) frame = std::max<std::size_t>(frame, rule.frame);
+    frame_ = frame;
+    lane_.locals.resize(frame);
+  }
+
+  void run(std::size_t begin, std::size_t end, std::size_t parameter) {
+    machine_.setInstance(&s_.main, &program_.main());
+    lane_.fired = 0;
+    lane_.out->codes.clear();
+    lane_.out->parameters.clear();
+    in_ = old_.parameters.data() + parameter;
+    if (plans_.rightCodes) readRightCodes(begin, end);
+    if (plans_.leftCodes)
+      plans_.rightCodes ? blocks<true, true>(begin, end) : blocks<true, false>(begin, end);
+    else
+      plans_.rightCodes ? blocks<false, true>(begin, end) : blocks<false, false>(begin, end);
+  }
+
+ private:
+  void readRightCodes(std::size_t begin, std::size_t end) {
+    RightFringe fringe(plans_, old_.codes, end);
+    SymbolCode* const right = s_.rightCodes.data();
+    Buffer<SymbolCode>& stack = lane_.stack;
+    stack.clear();
+    SymbolCode next = fringe.nearest();
+    for (std::size_t i = end; i-- > begin;) {
+      right[i] = next;
+      const SymbolCode code = old_.codes[i];
+      switch (plans_.roles[code]) {
+        case Plans::Considered: next = code; break;
+        case Plans::Ignored: break;
+        case Plans::Closes:
+          stack.push(next);
+          next = fringe.nobody();
+          break;
+        default:
+          if (stack.size() > 0) {
+            next = stack[stack.size() - 1];
+            stack.setSize(stack.size() - 1);
+          } else {
+            fringe.leave();
+            next = fringe.nearest();
+          }
+      }
+    }
+  }
+
+  /// Block by block: room for the longest that a block can become is made before it, so that nothing inside has to ask.
+  template <bool withLeft, bool withRight>
+  void blocks(std::size_t begin, std::size_t end) {
+    constexpr std::size_t blockModules = 1 << 16;
+    const std::size_t block = std::clamp<std::size_t>(blockModules / std::max(plans_.longest, plans_.most), 1, 2048);
+    LeftFringe fringe(plans_, old_.codes, begin);
+    lane_.stack.clear();
+    SymbolCode last = withLeft ? fringe.nearest() : SymbolCode{0};
+    std::size_t looks = 0;
+    for (std::size_t at = begin; at < end && !lane_.error; at += block) {
+      const std::size_t to = std::min(end, at + block);
+      Arrays& out = *lane_.out;
+      out.codes.reserveMore(out.codes.size() + (to - at) * plans_.longest);
+      out.parameters.reserveMore(out.parameters.size() + (to - at) * plans_.most);
+      last = rewrite<withLeft, withRight>(at, to, last, fringe);
+      if (out.codes.size() > s_.options.limits.modules) lane_.error = s_.tooMany("modules", s_.options.limits.modules, rule_).error;
+      constexpr std::size_t betweenLooks = 64;
+      if (++looks % betweenLooks != 0 || lane_.error) continue;
+      if (auto go = s_.mayGoOn(); !go) lane_.error = go.error();
+    }
+  }
+
+  template <bool withLeft, bool withRight>
+  SymbolCode rewrite(std::size_t begin, std::size_t end, SymbolCode last, LeftFringe& fringe) {
+    const SymbolCode* const codes = old_.codes.data();
+    const std::size_t width = plans_.codes + 1;
+    to_ = lane_.out->codes.data() + lane_.out->codes.size();
+    numbers_ = lane_.out->parameters.data() + lane_.out->parameters.size();
+    std::size_t fired = 0;
+    for (std::size_t at = begin; at < end; ++at) {
+      const SymbolCode code = codes[at];
+      const Plan& plan = plans_.bySymbol[code];
+      switch (plan.kind) {
+        case Plan::Kind::Copy:
+          *to_++ = code;
+          copyNumbers(numbers_, in_, plan.parameters);
+          numbers_ += plan.parameters;
+          break;
+        case Plan::Kind::Constant:
+          copyCodes(to_, plan);
+          to_ += plan.length;
+          copyNumbers(numbers_, plan.successor->values.data(), plan.values);
+          numbers_ += plan.values;
+          ++fired;
+          break;
+        case Plan::Kind::Direct:
+          if (plan.rule->random) machine_.setRandom(successors_.split(step_, at));
+          copyCodes(to_, plan);
+          to_ += plan.length;
+          if (!compute(*plan.rule, *plan.successor, const_cast<double*>(in_))) return last;
+          ++fired;
+          break;
+        case Plan::Kind::Lottery:
+          if (!fire(*plan.lottery[drawn(plan, at)], const_cast<double*>(in_), at)) return last;
+          ++fired;
+          break;
+        case Plan::Kind::Neighbours: {
+          const std::size_t right = withRight ? s_.rightCodes[at] : plans_.codes;
+          const CandidateList& list = plans_.lists[plan.table[(withLeft ? last : plans_.codes) * width + right]];
+          if (list.outright) {
+            write(*list.rules.front(), const_cast<double*>(in_), at);
+            ++fired;
+          } else {
+            fired += tryRules(list.rules, [](const CompiledRule* rule) { return rule; }, code, at, plan.parameters);
+          }
+          break;
+        }
+        case Plan::Kind::Rules: {
+          const auto& rules = program_.main().productions.rules;
+          const auto& numbers = candidates(*plan.index, in_);
+          const auto ruleOf = [&](std::uint32_t number) { return &rules[number]; };
+          fired += stochastic_ ? tryByWeight(numbers, code, at, plan.parameters) : tryRules(numbers, ruleOf, code, at, plan.parameters);
+          break;
+        }
+      }
+      if (lane_.error) return last;
+      in_ += plan.parameters;
+      if constexpr (withLeft) last = leftAfter(code, last, fringe);
+    }
+    lane_.fired += fired;
+    lane_.out->codes.setSize(static_cast<std::size_t>(to_ - lane_.out->codes.data()));
+    lane_.out->parameters.setSize(static_cast<std::size_t>(numbers_ - lane_.out->parameters.data()));
+    return last;
+  }
+
+  /// The left neighbour of what follows a module.
+  SymbolCode leftAfter(SymbolCode code, SymbolCode last, LeftFringe& fringe) {
+    switch (plans_.roles[code]) {
+      case Plans::Considered: return code;
+      case Plans::Ignored: return last;
+      case Plans::Opens: lane_.stack.push(last); return last;
+      default: break;
+    }
+    if (lane_.stack.size() == 0) {
+      fringe.leave();
+      return fringe.nearest();
+    }
+    const SymbolCode before = lane_.stack[lane_.stack.size() - 1];
+    lane_.stack.setSize(lane_.stack.size() - 1);
+    return before;
+  }
+
+  void copy(SymbolCode code, std::size_t parameters) {
+    *to_++ = code;
+    copyNumbers(numbers_, in_, parameters);
+    numbers_ += parameters;
+  }
+
+  bool inTrouble(const CompiledRule& rule) {
+    lane_.error = s_.failure(*machine_.trouble(), &rule).error;
+    return false;
+  }
+
+  /// The parameters of a successor.
+  bool compute(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals) {
+    const std::size_t count = successor.terms.size();
+    const Term* const terms = successor.terms.data();
+    for (std::size_t i = 0; i < count; ++i) numbers_[i] = machine_.value(terms[i], locals);
+    if (machine_.trouble()) return inTrouble(rule);
+    if (single_)
+      for (std::size_t i = 0; i < count; ++i) numbers_[i] = static_cast<double>(static_cast<float>(numbers_[i]));
+    if (finite_ && !successor.constant) {
+      double sum = 0;  // 0 * x is 0 for every finite x, nan for the others
+      for (std::size_t i = 0; i < count; ++i) sum += 0 * numbers_[i];
+      if (sum != 0) {
+        machine_.giveUp(ErrorCode::NoAnswer, "a parameter that is not a finite number");
+        return inTrouble(rule);
+      }
+    }
+    numbers_ += count;
+    return true;
+  }
+  bool writeSuccessor(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals) {
+    rule_ = &rule;
+    const std::size_t length = successor.codes.size();
+    const SymbolCode* const codes = successor.codes.data();
+    for (std::size_t i = 0; i < length; ++i) to_[i] = codes[i];
+    to_ += length;
+    return successor.terms.empty() || compute(rule, successor, locals);
+  }
+  /// A rule with one successor.
+  bool write(const CompiledRule& rule, double* locals, std::size_t at) {
+    if (rule.random) machine_.setRandom(successors_.split(step_, at));
+    return writeSuccessor(rule, rule.successors.front(), locals);
+  }
+  bool fire(const CompiledRule& rule, double* locals, std::size_t at) {
+    if (rule.successors.size() == 1) return write(rule, locals, at);
+    machine_.setRandom(successors_.split(step_, at));
+    weights_.clear();
+    double sum = 0;
+    for (const CompiledSuccessor& successor : rule.successors) {
+      weights_.push_back(weight(successor, locals));
+      sum += weights_.back();
+    }
+    if (machine_.trouble()) return inTrouble(rule);
+    return writeSuccessor(rule, rule.successors[chosen(weights_, sum * machine_.rng().uniform())], locals);
+  }
+
+  double weight(const CompiledSuccessor& successor, double* locals) {
+    const double w = machine_.value(successor.weight, locals);
+    if (!machine_.trouble() && !(w >= 0)) machine_.giveUp(ErrorCode::NoAnswer, "a probability that is negative or no number");
+    return w;
+  }
+  static std::size_t chosen(std::span<const double> weights, double left) {
+    std::size_t i = 0;
+    while (i + 1 < weights.size() && left >= weights[i]) left -= weights[i++];
+    return i;
+  }
+  std::size_t drawn(const Plan& plan, std::size_t at) const { return chosen(plan.weights, plan.sum * choices_.split(step_, at).uniform()); }
+
+  /// Whether a rule applies to the module at hand; `locals` is where its parameters are then: the string itself, where the rule
+  /// has no contexts with parameters.
+  bool applies(const CompiledRule& rule, std::size_t at, std::size_t parameters, double*& locals, double* frame) {
+    for (const Demand& demand : rule.predecessor.front().demands)
+      if (in_[demand.offset] != demand.value) return false;
+    locals = const_cast<double*>(in_);
+    if (rule.bound > parameters) {
+      copyNumbers(frame, in_, parameters);
+      locals = frame;
+    }
+    if (matched_ != Matched::ByTable && !matcher_.contexts(rule, at, at, locals)) return false;
+    const bool holds = !rule.hasCondition || machine_.value(rule.condition, locals) != 0;
+    if (machine_.trouble()) return inTrouble(rule);
+    return holds;
+  }
+
+  /// The first of the rules that applies fires; else the module is copied. How many fired: 0 or 1.
+  template <class Rules, class RuleOf>
+  std::size_t tryRules(const Rules& rules, RuleOf ruleOf, SymbolCode code, std::size_t at, std::size_t parameters) {
+    matched_ = std::is_same_v<Rules, std::vector<const CompiledRule*>> ? Matched::ByTable : Matched::NotYet;
+    if (s_.drawsConditions) machine_.setRandom(choices_.split(step_, at));
+    for (const auto& candidate : rules) {
+      const CompiledRule& rule = *ruleOf(candidate);
+      double* locals = nullptr;
+      if (applies(rule, at, parameters, locals, lane_.locals.data())) {
+        fire(rule, locals, at);
+        return 1;
+      }
+      if (lane_.error) return 0;
+    }
+    copy(code, parameters);
+    return 0;
+  }
+
+  std::size_t tryByWeight(const std::vector<std::uint32_t>& numbers, SymbolCode code, std::size_t at, std::size_t parameters) {
+    matched_ = Matched::NotYet;
+    machine_.setRandom(choices_.split(step_, at));
+    if (lane_.frames.size() < numbers.size() * frame_) lane_.frames.resize(numbers.size() * frame_);
+    lane_.applicable.clear();
+    weights_.clear();
+    double sum = 0;
+    for (const std::uint32_t number : numbers) {
+      const CompiledRule& rule = program_.main().productions.rules[number];
+      double* locals = nullptr;
+      if (applies(rule, at, parameters, locals, lane_.frames.data() + lane_.applicable.size() * frame_)) {
+        weights_.push_back(weight(rule.successors.front(), locals));
+        if (machine_.trouble()) return inTrouble(rule);
+        sum += weights_.back();
+        lane_.applicable.emplace_back(&rule, locals);
+      }
+      if (lane_.error) return 0;
+    }
+    if (weights_.empty()) {
+      copy(code, parameters);
+      return 0;
+    }
+    const auto& [rule, locals] = lane_.applicable[chosen(weights_, sum * machine_.rng().uniform())];
+    write(*rule, locals, at);
+    return 1;
+  }
+
+  enum class Matched { NotYet, ByTable };
+
+  Engine::State& s_;
+  const Plans& plans_;
+  const Program& program_;
+  Machine& machine_;
+  Lane& lane_;
+  OldString old_;
+  Matcher matcher_;
+  Rng choices_, successors_;
+  std::uint64_t step_;
+  bool stochastic_, finite_, single_;
+  Matched matched_ = Matched::NotYet;
+  const CompiledRule* rule_ = nullptr;  ///< the last one that wrote; for messages
+  std::size_t frame_ = 1;
+  const double* in_ = nullptr;          ///< parameters of the module at hand
+  SymbolCode* to_ = nullptr;
+  double* numbers_ = nullptr;
+  std::vector<double> weights_;
+};
+
+std::size_t parametersBefore(const Engine::State& s, std::size_t module) {
+  if (!s.plans->parameters) return 0;
+  const SymbolCode* const codes = s.string.codes().data();
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < module; ++i) sum += s.program->parameterCount[codes[i]];
+  return sum;
+}
+
+/// The tables that contexts need, each by another thread.
+void readSurroundings(Engine::State& s, int threads) {
+  const SurroundingNeeds& needs = s.plans->needs;
+  if (!needs.left && !needs.right && !needs.brackets && !needs.offsets) return;
+  const auto& ignored = s.program->main().ignored;
+  const auto read = [&](int thread) {
+    const auto mine = [&](int table) { return table % threads == thread; };
+    if (needs.left && mine(0)) s.around.readLeft(*s.program, ignored, s.string.codes());
+    if (needs.right && mine(1)) s.around.readRight(*s.program, ignored, s.string.codes());
+    if (needs.offsets && mine(2)) s.around.readOffsets(*s.program, s.string.codes());
+    if (needs.brackets && mine(3)) s.around.readBrackets(*s.program, s.string.codes());
+  };
+  threads == 1 ? read(0) : s.workers->each(read);
+}
+
+/// Puts the lanes behind each other; the first is in its place already.
+void joinLanes(Engine::State& s, int threads) {
+  std::vector<std::size_t> codes{s.spare.codes.size()}, parameters{s.spare.parameters.size()};
+  for (int i = 1; i < threads; ++i) {
+    codes.push_back(codes.back() + s.lanes[static_cast<std::size_t>(i)].own.codes.size());
+    parameters.push_back(parameters.back() + s.lanes[static_cast<std::size_t>(i)].own.parameters.size());
+  }
+  s.spare.codes.setSize(codes.back());
+  s.spare.parameters.setSize(parameters.back());
+  const auto join = [&](int thread) {
+    if (thread == 0) return;
+    const Arrays& own = s.lanes[static_cast<std::size_t>(thread)].own;
+    const auto before = static_cast<std::size_t>(thread - 1);
+    if (own.codes.size() > 0) std::memcpy(s.spare.codes.data() + codes[before], own.codes.data(), own.codes.size());
+    if (own.parameters.size() > 0) std::memcpy(s.spare.parameters.data() + parameters[before], own.parameters.data(), own.parameters.size() * sizeof(double));
+  };
+  constexpr std::size_t small = 1 << 18;
+  if (threads > 2 && codes.back() + 8 * parameters.back() > small) return s.workers->each(join);
+  for (int i = 1; i < threads; ++i) join(i);
+}
+
+}  // namespace
+
+Result<std::size_t> Engine::State::plainStep() {
+  constexpr std::size_t worthAThread = 4096;
+  const std::size_t size = string.size();
+  const int threads = static_cast<int>(std::clamp<std::size_t>(size / worthAThread, 1, static_cast<std::size_t>(workers->count())));
+  readSurroundings(*this, threads == 1 ? 1 : workers->count());
+  if (plans->rightCodes) rightCodes.setSize(size);
+  const auto part = [&](int thread) {
+    if (thread >= threads) return;
+    const auto t = static_cast<std::size_t>(thread), n = static_cast<std::size_t>(threads);
+    Lane& lane = lanes[t];
+    lane.out = thread == 0 ? &spare : &lane.own;
+    lane.error.reset();
+    const std::size_t begin = size * t / n, end = size * (t + 1) / n;
+    PartPass(*this, machines[t], lane).run(begin, end, parametersBefore(*this, begin));
+  };
+  threads == 1 ? part(0) : workers->each(part);
+  std::size_t fired_ = 0;
+  for (int i = 0; i < threads; ++i) {
+    const Lane& lane = lanes[static_cast<std::size_t>(i)];
+    if (lane.error) return fail(*lane.error);
+    fired_ += lane.fired;
+  }
+  joinLanes(*this, threads);
+  if (spare.codes.size() > options.limits.modules) return tooMany("modules", options.limits.modules, nullptr);
+  return fired_;
+}
+
+}  // namespace axil::simeco
