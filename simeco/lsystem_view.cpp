@@ -55,7 +55,7 @@ std::string lowered(std::string_view text) {
 
 /// Settings of the reference program that have nothing to do with where the turtle goes.
 constexpr std::string_view kPassedOver[] = {
-    "scale factor", "scale", "min zoom", "max zoom", "line style", "front distance", "back distance", "projection", "render mode", "z buffer",
+    "scale factor", "scale", "min zoom", "max zoom", "front distance", "back distance", "projection", "render mode", "z buffer",
     "cue range", "shade mode", "light", "light direction", "diffuse reflection", "ambient light", "viewpoint", "view reference point", "twist",
     "view", "surface", "surface ambient", "surface diffuse", "contour", "contours", "contour sides", "texture", "bsurface", "tsurface", "mesh",
     "function", "function set", "color map", "colormap", "background", "background scene", "double buffer", "new frame", "box", "frame", "stroke",
@@ -113,6 +113,7 @@ class ViewReader {
     else if (keyword == "scale multiplier") view_.scaleMultiplier = size(view_.scaleMultiplier);
     else if (keyword == "initial color" || keyword == "initial colour") view_.colour = colour(128);
     else if (keyword == "color increment" || keyword == "colour increment") view_.colourIncrement = colour(1);
+    else if (keyword == "line style") lineStyle();
     else if (keyword == "tapered lines") view_.taperedLines = onOff(true);
     else if (keyword == "interpretation past %") view_.pastCut = onOff(true);
     else if (keyword == "tropism" || keyword == "torque") tropism(keyword == "torque");
@@ -123,7 +124,7 @@ class ViewReader {
 
   void unknown(const std::string& keyword, std::string_view) {
     static constexpr std::string_view kKnown[] = {"angle increment", "angle factor", "initial line width", "line width increment", "initial scale",
-                                                  "scale multiplier", "initial color", "color increment", "tapered lines", "interpretation past %",
+                                                  "scale multiplier", "initial color", "color increment", "tapered lines", "line style", "interpretation past %",
                                                   "tropism", "torque", "tropism direction", "initial elasticity"};
     report_.warning(where_, "the setting '" + keyword + "' is not known and not used", didYouMean(keyword, kKnown));
   }
@@ -132,6 +133,14 @@ class ViewReader {
     const double factor = number(0).value_or(8);
     if (factor > 0) view_.angleIncrement = Angle::fromDegrees(360 / factor);
     else error(where_.begin, where_.end, "an angle factor must be above 0", "6 stands for 60 degrees");
+  }
+
+  void lineStyle() {
+    const std::string value = values_.empty() ? "" : lowered(values_[0].text);
+    if (value == "pixel") view_.lineStyle = LineStyle::Pixel;
+    else if (value == "polygon") view_.lineStyle = LineStyle::Polygon;
+    else if (value == "cylinder") view_.lineStyle = LineStyle::Cylinder;
+    else error(where_.begin, where_.end, "a line style is pixel, polygon or cylinder", "");
   }
 
   OldTropism& old() {

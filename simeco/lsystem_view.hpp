@@ -34,6 +34,9 @@ struct OldTropism {
   double elasticity = 0;
 };
 
+/// How thick a line is: so many pixels, or so much of the plant's unit.
+enum class LineStyle { Pixel, Polygon, Cylinder };
+
 struct LSystemView {
   Angle angleIncrement = Angle::fromDegrees(45);
   double lineWidth = 1;
@@ -42,6 +45,7 @@ struct LSystemView {
   double scaleMultiplier = 1;
   int colour = 128;
   int colourIncrement = 1;
+  LineStyle lineStyle = LineStyle::Pixel;
   bool taperedLines = true;
   bool pastCut = true;         ///< whether what stands behind % is drawn
   std::vector<Tropism> tropisms;

@@ -43,6 +43,7 @@ struct Organ {
   PlantDirection adaxial = PlantDirection::along({0, 0, 1});  ///< upper side of a blade, perpendicular to direction
   double length = 0;
   double radius = 0;                     ///< half the width: of a stem's body, else of the organ at its widest (0: by its shape)
+  std::optional<double> tipRadius = {};  ///< of a tapered stem: the radius at its tip; without it a stem is as wide as its neighbours say
   double age = 0;                        ///< in the grammar's time, since birth
   std::int32_t production = -1;          ///< rule that made it, in text order over all plants; -1: the axiom
   std::int64_t module = -1;              ///< which module of the string it is; -1: a body that stayed behind when it was rewritten
@@ -51,12 +52,45 @@ struct Organ {
   friend bool operator==(const Organ&, const Organ&) = default;
 };
 
+/// A flat face that an L-system's turtle outlined; 3 vertices or more, in order around it.
+struct PlantFace {
+  std::vector<PlantPoint> vertices = {};
+  std::int32_t style = 0;
+  std::int32_t production = -1;          ///< as of an Organ
+  std::int64_t module = -1;
+  friend bool operator==(const PlantFace&, const PlantFace&) = default;
+};
+
+/// A sphere that a turtle set.
+struct PlantBall {
+  PlantPoint centre = {};
+  double radius = 0;
+  std::int32_t style = 0;
+  std::int32_t production = -1;
+  std::int64_t module = -1;
+  friend bool operator==(const PlantBall&, const PlantBall&) = default;
+};
+
+/// A round disc that a turtle set.
+struct PlantDisc {
+  PlantPoint centre = {};
+  PlantDirection normal = PlantDirection::along({0, 0, 1});
+  double radius = 0;
+  std::int32_t style = 0;
+  std::int32_t production = -1;
+  std::int64_t module = -1;
+  friend bool operator==(const PlantDisc&, const PlantDisc&) = default;
+};
+
 /// One plant or several of one ecosystem, at time `time`.
 struct Plant {
   std::string name;
   double time = 0;
   std::vector<OrganStyle> styles;
   std::vector<Organ> organs;             ///< parent before child
+  std::vector<PlantFace> faces = {};     ///< faces, balls and discs: of L-systems only
+  std::vector<PlantBall> balls = {};
+  std::vector<PlantDisc> discs = {};
 
   [[nodiscard]] const Organ& at(OrganId id) const { return organs[static_cast<std::size_t>(id.value)]; }
   [[nodiscard]] const OrganStyle& styleOf(const Organ& organ) const { return styles[static_cast<std::size_t>(organ.style)]; }
