@@ -9,12 +9,17 @@
 #include <initializer_list>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace axil::keywords {
 
 namespace {
 
 constexpr std::size_t blockBytes = 64 * 1024;
+
+// A paragraph is about a plant when it says so: with one word that only botany uses, or with everyday ones that support each
+// other ("leaves" and, right beside it, "opposite"). Otherwise it is about something else, and yields nothing.
+constexpr int enoughEvidence = 2;
 
 using Words = std::initializer_list<std::string_view>;
 bool isOneOf(std::string_view text, Words words) { return std::find(words.begin(), words.end(), text) != words.end(); }
@@ -86,7 +91,9 @@ class BlockReader {
   }
 
   const Concept* read() {
+    const std::size_t before = traits_.size();
     for (std::size_t i = 0; i < tokens_.size();) i = std::max(step(i), i + 1);
+    if (evidence_ < enoughEvidence) traits_.resize(before);
     return scope_.organ;
   }
 
@@ -149,10 +156,28 @@ class BlockReader {
       return;
     }
     const Concept* organ = organAt(i, "organ");
-    if (organ == nullptr || isPlaceOnly(i)) return;
+    if (organ == nullptr) return;
+    weighOrgan(i, *organ);
+    if (isPlaceOnly(i)) return;
     // A plant or a twig bears what follows ("a shrub with opposite, ovate leaves"); it is not what the adjectives are about.
     const bool bears = isBody(*organ) || organ->name == "branch";
     scope_ = {organ, nullptr, found_[i].end, true, !bears, true, false};
+  }
+
+  // Everyday organs count once each, and words for whole plants not at all: power plants and family trees abound.
+  void weighOrgan(std::size_t i, const Concept& organ) {
+    if (!found_[i].as("organ")->everyday) {
+      evidence_ += 2;
+    } else if (organ.name != "plant" && std::find(organsSeen_.begin(), organsSeen_.end(), &organ) == organsSeen_.end()) {
+      organsSeen_.push_back(&organ);
+      ++evidence_;
+    }
+  }
+
+  [[nodiscard]] bool isRightBehindOrgan(std::size_t i) const {
+    std::size_t at = i;
+    while (at > scope_.organEnd && (isAny(at - 1, {"are", ":", "呈", "為", "为"}) || !qualifierOf(tokens_[at - 1].text).empty())) --at;
+    return scope_.organ != nullptr && at == scope_.organEnd && i >= scope_.organEnd;
   }
 
   [[nodiscard]] bool isPartOfTermBefore(std::size_t i) const {
@@ -266,23 +291,36 @@ class BlockReader {
     if (meaning == nullptr) return;
     const Concept* attributive = organAfter(f.end);
     const bool inSentence = scope_.organInSentence || attributive != nullptr;
+    const bool atItsPart = part != nullptr && part->name == meaning->category->part;
+    if (meaning->everyday && meaning->category->part == "base" && !atItsPart) return;  // "sepals unequal"
     if (meaning->everyday && (!inSentence || goesElsewhere(f.end))) return;
 
     LastTerm now{f.end, meaning->category, qualifierBefore(i), isNegated(i), false};
     const Concept* organ = attributive != nullptr ? attributive : scope_.organ;
-    if (organ != nullptr && isBody(*organ) && meaning->everyday) return;
+    const bool ofForm = isOneOf(meaning->category->property, {"arrangement", "shape", "type"});
+    if (ofForm && organ != nullptr && isBody(*organ) && meaning->everyday) return;
+    if (!meaning->everyday) evidence_ += 2;
+    if (meaning->everyday && f.as("organ") == nullptr && (attributive != nullptr || isRightBehindOrgan(i))) ++evidence_;
     if (!now.negated) {
       now.kept = true;
       if (continuesCompound(i, *meaning->category)) {
         extendCompound(f, meaning->entry->name);
       } else {
-        const bool ofPart = part != nullptr && meaning->category->property == "shape" && (partOfTerm != nullptr || !scope_.commaSincePart);
-        const bool takesDefault = organ == nullptr || isBody(*organ);
+        const bool takesPart = part != nullptr && isOneOf(part->name, {"apex", "base"}) && meaning->category->property == "shape";
+        const bool ofPart = takesPart && (partOfTerm != nullptr || !scope_.commaSincePart);
+        const bool takesDefault = organ == nullptr || meaning->category->ownOrgan || (ofForm && isBody(*organ));
         addTerm(f, takesDefault ? meaning->category->defaultOrgan : organ->name, ofPart ? part->name : meaning->category->property,
                 meaning->entry->name, now.qualifier);
       }
     }
     last_ = now;
+    // 羽狀複葉,長20公分: the phrase has named the leaf itself.
+    if (isOneOf(f.phrase->words.back(), {"葉", "叶"}) && f.as("organ") == nullptr) enterLeaf(f.end);
+  }
+
+  void enterLeaf(std::size_t end) {
+    for (const Concept& organ : categoryOf("organ").concepts)
+      if (organ.name == "leaf") scope_ = {&organ, nullptr, end, true, true, true, false};
   }
 
   void addTerm(const Found& f, const std::string& organ, const std::string& property, const std::string& value, const std::string& qualifier) {
@@ -333,6 +371,7 @@ class BlockReader {
       // A bare size belongs to a whole plant only right behind its name: "Shrub 2-3 m".
       const bool isFar = i > scope_.organEnd + 4;
       if (size.dimension.empty() && property == "height" && isFar) continue;
+      evidence_ += (size.dimension.empty() ? 0 : 1) + (isRightBehindOrgan(size.first) ? 1 : 0);
       addSize(size, property);
     }
     return end;
@@ -475,6 +514,8 @@ class BlockReader {
   Traits& traits_;
   Scope scope_;
   LastTerm last_;
+  int evidence_ = 0;
+  std::vector<const Concept*> organsSeen_;
 };
 
 // ---- blocks

@@ -14,6 +14,7 @@ struct Source {
   std::string_view defaultOrgan;
   std::string_view part;
   std::string_view table;
+  bool ownOrgan = false;
 };
 
 std::vector<Source> sources() {
@@ -24,6 +25,20 @@ std::vector<Source> sources() {
       {"stop", "", "", data::stop},
       {"arrangement", "leaf", "", data::arrangement},
       {"shape", "leaf", "", data::leaf_shape},
+      {"type", "leaf", "", data::leaf_type},
+      {"apex", "leaf", "apex", data::apex},
+      {"base", "leaf", "base", data::base},
+      {"margin", "leaf", "margin", data::margin},
+      {"attachment", "leaf", "", data::attachment},
+      {"venation", "leaf", "", data::venation},
+      {"surface", "leaf", "surface", data::surface},
+      {"life form", "plant", "", data::life_form, true},
+      {"duration", "plant", "", data::duration},
+      {"habit", "plant", "", data::habit},
+      {"type", "inflorescence", "", data::inflorescence_type, true},
+      {"form", "flower", "", data::flower_plan, true},
+      {"type", "fruit", "", data::fruit_type, true},
+      {"colour", "flower", "", data::colour},
   };
 }
 
@@ -55,7 +70,7 @@ std::vector<Category> readVocabulary() {
   for (const Source& source : sources()) {
     const Result<Table> table = readTable(source.table, source.property);
     AXIL_ASSERT(table.has_value(), "a vocabulary table has rows of unequal length");
-    Category category{std::string(source.property), std::string(source.defaultOrgan), std::string(source.part), {}};
+    Category category{std::string(source.property), std::string(source.defaultOrgan), std::string(source.part), source.ownOrgan, {}};
     for (const Table::Row& row : table->rows) category.concepts.push_back(conceptOf(*table, row));
     categories.push_back(std::move(category));
   }

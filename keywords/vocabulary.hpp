@@ -30,11 +30,12 @@ struct Category {
   std::string property;      ///< "arrangement", "shape"; the property of the traits that it yields
   std::string defaultOrgan;  ///< the organ a statement is about when none is named; "leaf"
   std::string part;          ///< the part of the organ it is about ("margin"); empty: the whole organ
+  bool ownOrgan = false;     ///< always about the default organ, whatever is named: a kind of fruit is about the fruit
   std::vector<Concept> concepts;
 };
 
 [[nodiscard]] const std::vector<Category>& vocabulary();
-/// The category of that property; it must exist.
+/// The first category of that property; it must exist. (Leaves, inflorescences and fruits each have a "type".)
 [[nodiscard]] const Category& categoryOf(std::string_view property);
 
 }  // namespace axil::keywords

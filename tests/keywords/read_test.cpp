@@ -41,7 +41,7 @@ TEST(ReadTraits, FindsArrangementAndShapeInThreeScripts) {
 }
 
 TEST(ReadTraits, ReadsAdjectivesBeforeTheirOrgan) {
-  EXPECT_EQ(traitsOf("A shrub with opposite, broadly ovate leaves."), (Lines{"leaf arrangement opposite", "leaf shape ovate"}));
+  EXPECT_EQ(traitsOf("A shrub with opposite, broadly ovate leaves."), (Lines{"plant life form shrub", "leaf arrangement opposite", "leaf shape ovate"}));
   EXPECT_EQ(traitsOf("Flowers with lanceolate petals."), (Lines{"petal shape lanceolate"}));
   EXPECT_EQ(traitsOf("具對生的葉。"), (Lines{"leaf arrangement opposite"}));
 }
@@ -88,8 +88,8 @@ TEST(ReadTraits, ReadsSizes) {
   EXPECT_EQ(traitsOf("Blade 23-34 × 4.5-5.6 cm."), (Lines{"leaf length 23-34 cm", "leaf width 4.5-5.6 cm"}));
   EXPECT_EQ(traitsOf("葉長 3-8 公分,寬2～4公分。"), (Lines{"leaf length 3-8 cm", "leaf width 2-4 cm"}));
   EXPECT_EQ(traitsOf("叶长３－８厘米。"), (Lines{"leaf length 3-8 cm"}));
-  EXPECT_EQ(traitsOf("Shrub 2-3 m tall."), (Lines{"plant height 2-3 m"}));
-  EXPECT_EQ(traitsOf("喬木,高可達10公尺。"), (Lines{"plant height ..10 m"}));
+  EXPECT_EQ(traitsOf("Shrub 2-3 m tall."), (Lines{"plant life form shrub", "plant height 2-3 m"}));
+  EXPECT_EQ(traitsOf("喬木,高可達10公尺。"), (Lines{"plant life form tree", "plant height ..10 m"}));
   EXPECT_EQ(traitsOf("Leaves up to 5 mm long."), (Lines{"leaf length ..5 mm"}));
 }
 
@@ -107,7 +107,7 @@ TEST(ReadTraits, KeepsTheExtremesInBrackets) {
 
 TEST(ReadTraits, NeverGuessesAUnit) { EXPECT_EQ(traitsOf("Leaves 3-8 long."), Lines{}); }
 
-TEST(ReadTraits, AltitudesAreNoHeights) { EXPECT_EQ(traitsOf("Shrubs at elevations of 300-1500 m."), Lines{}); }
+TEST(ReadTraits, AltitudesAreNoHeights) { EXPECT_EQ(traitsOf("Shrubs at elevations of 300-1500 m."), Lines{"plant life form shrub"}); }
 
 TEST(ReadTraits, ReadsCounts) {
   EXPECT_EQ(traitsOf("Petals 5, stamens 10."), (Lines{"petal count 5", "stamen count 10"}));
@@ -134,7 +134,7 @@ TEST(ReadTraits, InventsNothingInTextThatIsNotAboutPlants) {
 }
 
 TEST(ReadTraits, CountsPlacesInBytesAndCharacters) {
-  const std::string text = "灌木。葉對生，卵形";
+  const std::string text = "又見。葉對生，卵形";
   const Result<Traits> traits = readTraits(text);
   ASSERT_TRUE(traits);
   ASSERT_EQ(traits->size(), 2u);
