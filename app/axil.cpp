@@ -100,7 +100,7 @@ void addGrow(CLI::App& app, int& status, GrowCommand& command) {
   auto* time = sub->add_option("--time", command.time, "Moment of growth in the grammar's time; by default when all is grown")->check(CLI::NonNegativeNumber);
   sub->add_option("--steps", command.steps, "Stop after this many derivation steps, then let what is there grow out")->check(CLI::NonNegativeNumber)->excludes(time);
   addSeed(sub, command.seed);
-  sub->add_option("--frames", command.frames, "How many pictures of the growth from nothing to the chosen moment")->check(CLI::Range(1, 100000));
+  sub->add_option("--frames", command.frames, "How many pictures of the growth from nothing to the chosen moment")->check(CLI::Range(2, 100000));
   sub->add_option("--view", command.view, "front, right, top or quarter")->check(CLI::IsMember({"front", "right", "top", "quarter"}))->capture_default_str();
   sub->add_option("--width", command.width, "Pixels")->check(CLI::Range(16, 8192))->capture_default_str();
   sub->add_option("--height", command.height, "Pixels")->check(CLI::Range(16, 8192))->capture_default_str();
@@ -112,7 +112,7 @@ void addBuild(CLI::App& app, int& status, BuildCommand& command) {
                   "  axil build plant.axil -o out\n  axil build plant.axil -o out --frames 12 --video");
   sub->add_option("PROJECT", command.project, "A project file, NAME.axil")->required();
   sub->add_option("-o,--out", command.out, "The folder to write into; made if missing")->required();
-  sub->add_option("--frames", command.frames, "Growth pictures")->check(CLI::Range(1, 1000))->capture_default_str();
+  sub->add_option("--frames", command.frames, "Growth pictures")->check(CLI::Range(2, 1000))->capture_default_str();
   sub->add_flag("--video", command.video, "Also write growth.mp4");
 }
 

@@ -23,6 +23,7 @@ struct BuildOptions {
 /// What a build found out, also in report.json. Lengths in the project's unit.
 struct BuildReport {
   std::string name;
+  std::string unit;
   std::size_t nodes = 0;
   std::size_t stems = 0;
   std::size_t segments = 0;
@@ -30,6 +31,7 @@ struct BuildReport {
   double height = 0;
   double worstReprojection_px = 0;
   double worstRegrown = 0;              ///< largest distance of a regrown node from where the skeleton has it
+  std::vector<skeleton3d::SuspectClick> suspects;  ///< left out, since no camera explains them
   std::vector<std::string> files;       ///< written, relative to the folder, in the order they were made
 };
 

@@ -1,6 +1,7 @@
 #include "document/chain.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace axil::document {
 
@@ -25,6 +26,50 @@ std::string photoFault(const skeleton3d::View& view, glm::ivec2 photo) {
   return {};
 }
 
+// Fills in the sizes of the photos; what the photos' own data say of the lens goes to `focals`, by view.
+Result<std::vector<skeleton3d::View>> readViews(const OpenProject& open, std::map<std::string, double>& focals) {
+  std::vector<skeleton3d::View> views;
+  std::vector<std::string> faults;
+  for (const ProjectView& view : open.project.views) {
+    views.push_back(view.view);
+    if (view.photo.empty()) continue;
+    const auto photo = skeleton3d::probePhoto(photoPath(open, view));
+    const std::string fault = photo ? photoFault(view.view, {photo->width, photo->height}) : "view '" + view.view.name + "': " + photo.error().message;
+    if (!fault.empty()) {
+      faults.push_back(fault);
+      continue;
+    }
+    views.back().size_px = {photo->width, photo->height};
+    if (photo->exif_focal_px) focals[view.view.name] = *photo->exif_focal_px;
+  }
+  if (faults.empty()) return views;
+  if (faults.size() == 1) return fail(ErrorCode::BadInput, faults.front());
+  return fail(Error{ErrorCode::BadInput, "the photos are not as the project says", std::move(faults)});
+}
+
+std::vector<skeleton3d::ClickedNode> nodesOf(const Project& project) {
+  std::vector<skeleton3d::ClickedNode> nodes;
+  for (const ProjectNode& node : project.nodes) nodes.push_back(node.node);
+  return nodes;
+}
+
+std::map<std::string, skeleton3d::UnknownCameraHints> hintsOf(const Project& project, const std::map<std::string, double>& focals) {
+  std::map<std::string, skeleton3d::UnknownCameraHints> hints;
+  for (const ProjectView& view : project.views) {
+    const auto focal = focals.find(view.view.name);
+    hints[view.view.name] = {view.origin_px, view.scale, focal == focals.end() ? std::nullopt : std::optional(focal->second)};
+  }
+  return hints;
+}
+
+emit::EmitOptions emitOptionsOf(const Project& project, const ChainOptions& options) {
+  emit::EmitOptions emitOptions;
+  emitOptions.name = project.name;
+  emitOptions.decimals = options.decimals;
+  emitOptions.turning = options.turning;
+  return emitOptions;
+}
+
 }  // namespace
 
 const char* nameOf(GrammarKind kind) {
@@ -43,37 +88,42 @@ Result<keywords::Presets> presetsOf(const Project& project) {
   return keywords::presetsOf(*traits);
 }
 
-Result<std::vector<skeleton3d::View>> viewsOf(const OpenProject& open) {
-  std::vector<skeleton3d::View> views;
-  std::vector<std::string> faults;
-  for (const ProjectView& view : open.project.views) {
-    views.push_back(view.view);
-    if (view.photo.empty()) continue;
-    const auto photo = skeleton3d::probePhoto(photoPath(open, view));
-    const std::string fault = photo ? photoFault(view.view, {photo->width, photo->height}) : "view '" + view.view.name + "': " + photo.error().message;
-    if (!fault.empty()) faults.push_back(fault);
-    else views.back().size_px = {photo->width, photo->height};
-  }
-  if (faults.empty()) return views;
-  if (faults.size() == 1) return fail(ErrorCode::BadInput, faults.front());
-  return fail(Error{ErrorCode::BadInput, "the photos are not as the project says", std::move(faults)});
+Result<Measured> measured(const OpenProject& open, const ChainOptions& options) {
+  options.watch.report("reading the photos", 0);
+  std::map<std::string, double> focals;
+  auto views = readViews(open, focals);
+  if (!views) return views.failure();
+  Measured result{std::move(*views), nodesOf(open.project), {}, {}};
+  const bool anyUnknown = std::any_of(result.views.begin(), result.views.end(),
+                                      [](const skeleton3d::View& view) { return view.camera.model == skeleton3d::CameraModel::Unknown; });
+  if (!anyUnknown) return result;
+  options.watch.report("estimating the cameras", 0.2);
+  auto cameras = skeleton3d::estimateCameras(result.views, hintsOf(open.project, focals), result.nodes, {.click_px = options.solve.click_px});
+  if (!cameras) return cameras.failure();
+  result.nodes = skeleton3d::withoutSuspects(result.nodes, cameras->suspects);
+  result.views = std::move(cameras->views);
+  result.cameras = std::move(cameras->reports);
+  result.suspects = std::move(cameras->suspects);
+  return result;
 }
 
-Result<skeleton3d::Skeleton> skeletonOf(const OpenProject& open, const ChainOptions& options) {
-  const Project& project = open.project;
-  auto views = viewsOf(open);
-  if (!views) return views.failure();
-  std::vector<skeleton3d::ClickedNode> nodes;
+Result<skeleton3d::Skeleton> skeletonOf(const Project& project, const Measured& clicks, const ChainOptions& options) {
   std::vector<skeleton3d::ClickedStem> stems;
-  for (const ProjectNode& node : project.nodes) nodes.push_back(node.node);
   for (const ProjectStem& stem : project.stems) stems.push_back(stem.stem);
-  auto skeleton = skeleton3d::buildSkeleton(*views, nodes, stems, options.solve, project.unit);
+  options.watch.report("solving the skeleton", 0.6);
+  auto skeleton = skeleton3d::buildSkeleton(clicks.views, clicks.nodes, stems, options.solve, project.unit);
   if (!skeleton || project.leaves.empty()) return skeleton;
   const auto presets = presetsOf(project);
   if (!presets) return presets.failure();
   std::vector<quantify::LeafArrangement> leaves;
   for (const ProjectLeaves& entry : project.leaves) leaves.push_back(entry.arrangement);
   return quantify::withLeaves(*skeleton, leaves, *presets);
+}
+
+Result<skeleton3d::Skeleton> skeletonOf(const OpenProject& open, const ChainOptions& options) {
+  const auto clicks = measured(open, options);
+  if (!clicks) return clicks.failure();
+  return skeletonOf(open.project, *clicks, options);
 }
 
 Result<quantify::Measurements> measurementsOf(const skeleton3d::Skeleton& skeleton, const ChainOptions& options) {
@@ -87,7 +137,7 @@ Result<quantify::Measurements> measurementsOf(const OpenProject& open, const Cha
 }
 
 Result<simeco::Grammar> grammarOf(const Project& project, const quantify::Measurements& measurements, GrammarKind kind, const ChainOptions& options) {
-  const emit::EmitOptions emitOptions{.name = project.name, .decimals = options.decimals, .turning = options.turning};
+  const emit::EmitOptions emitOptions = emitOptionsOf(project, options);
   switch (kind) {
     case GrammarKind::Initial: return emit::initialGrammar(measurements, emitOptions);
     case GrammarKind::Predictive: return emit::predictiveGrammar(measurements, emitOptions);
@@ -100,6 +150,12 @@ Result<simeco::Grammar> grammarOf(const OpenProject& open, GrammarKind kind, con
   const auto measurements = measurementsOf(open, options);
   if (!measurements) return measurements.failure();
   return grammarOf(open.project, *measurements, kind, options);
+}
+
+Result<std::string> dialectOf(const OpenProject& open, emit::Dialect dialect, const ChainOptions& options) {
+  const auto measurements = measurementsOf(open, options);
+  if (!measurements) return measurements.failure();
+  return emit::inDialect(*measurements, dialect, emitOptionsOf(open.project, options));
 }
 
 }  // namespace axil::document

@@ -7,6 +7,7 @@
 #include "document/project.hpp"
 #include "emit/emit.hpp"
 #include "keywords/keywords.hpp"
+#include "quantify/quantify.hpp"
 
 #include <string>
 #include <string_view>
@@ -26,15 +27,25 @@ enum class GrammarKind { Initial, Predictive, Structured };
 /// What the project's description sets.
 [[nodiscard]] Result<keywords::Presets> presetsOf(const Project& project);
 
-/// The project's views as the measuring room takes them: every photo that is named is there, is a photo, and has the size
-/// the file says; sizes nobody said are filled in.
-[[nodiscard]] Result<std::vector<skeleton3d::View>> viewsOf(const OpenProject& open);
+/// What the measuring room starts from: every photo that is named is there, is a photo and has the size the file says;
+/// every camera is known, or has been estimated from the clicks. Clicks that cannot be right are named and left out.
+struct Measured {
+  std::vector<skeleton3d::View> views;
+  std::vector<skeleton3d::ClickedNode> nodes;
+  std::vector<skeleton3d::CameraReport> cameras;    ///< of the estimated ones
+  std::vector<skeleton3d::SuspectClick> suspects;
+};
+[[nodiscard]] Result<Measured> measured(const OpenProject& open, const ChainOptions& options);
 
 [[nodiscard]] Result<skeleton3d::Skeleton> skeletonOf(const OpenProject& open, const ChainOptions& options);
+[[nodiscard]] Result<skeleton3d::Skeleton> skeletonOf(const Project& project, const Measured& clicks, const ChainOptions& options);
 [[nodiscard]] Result<quantify::Measurements> measurementsOf(const OpenProject& open, const ChainOptions& options);
 [[nodiscard]] Result<quantify::Measurements> measurementsOf(const skeleton3d::Skeleton& skeleton, const ChainOptions& options);
 [[nodiscard]] Result<simeco::Grammar> grammarOf(const OpenProject& open, GrammarKind kind, const ChainOptions& options);
 [[nodiscard]] Result<simeco::Grammar> grammarOf(const Project& project, const quantify::Measurements& measurements, GrammarKind kind,
                                                 const ChainOptions& options);
+
+/// The initial grammar in another program's language.
+[[nodiscard]] Result<std::string> dialectOf(const OpenProject& open, emit::Dialect dialect, const ChainOptions& options);
 
 }  // namespace axil::document

@@ -1,0 +1,188 @@
+#include "document/build.hpp"
+
+#include "base/files.hpp"
+#include "document/json_lines.hpp"
+#include "document/skeleton_file.hpp"
+#include "render/render.hpp"
+#include "simeco/simeco.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace axil::document {
+
+namespace {
+
+namespace fs = std::filesystem;
+using simeco::Grammar;
+using simeco::Growth;
+using skeleton3d::Skeleton;
+
+constexpr GrammarKind kKinds[] = {GrammarKind::Initial, GrammarKind::Predictive, GrammarKind::Structured};
+
+/// Collects what is made, in a folder that appears only when all is well.
+struct Output {
+  StagingFolder staging;
+  std::vector<std::string> files = {};
+
+  Result<void> write(const std::string& name, const std::string& content) {
+    files.push_back(name);
+    return writeFile(staging.path() / name, content);
+  }
+};
+
+double heightOf(const Skeleton& skeleton) {
+  double low = 0, high = 0;
+  for (const auto& node : skeleton.nodes) {
+    low = std::min(low, node.position.at.y);
+    high = std::max(high, node.position.at.y);
+  }
+  return high - low;
+}
+
+double worstReprojection(const Skeleton& skeleton) {
+  double worst = 0;
+  for (const auto& node : skeleton.nodes)
+    for (const auto& [view, px] : node.reprojection_px) worst = std::max(worst, px);
+  return worst;
+}
+
+/// Largest distance of a segment's upper node from the nearest tip that the grammar grew.
+double worstDistance(const Skeleton& skeleton, const simeco::Plant& plant) {
+  double worst = 0;
+  for (const auto& node : skeleton.nodes) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const simeco::Organ& organ : plant.organs) {
+      if (organ.kind != simeco::OrganKind::Stem) continue;
+      nearest = std::min({nearest, glm::distance(organ.tip().at, node.position.at), glm::distance(organ.base.at, node.position.at)});
+    }
+    worst = std::max(worst, nearest);
+  }
+  return worst;
+}
+
+/// What the predictive grammar grows.
+Result<simeco::Plant> nextOf(const std::map<GrammarKind, Grammar>& grammars, const Project& project, const ChainOptions& options) {
+  const auto growth = simeco::prepareGrowth(grammars.at(GrammarKind::Predictive), {.seed = project.seed, .watch = options.watch, .turning = options.turning});
+  if (!growth) return growth.failure();
+  return simeco::plantAt(*growth, simeco::completeTime(*growth));
+}
+
+Result<void> writePictures(Output& output, const render::PlantMesh& plant, const render::PlantMesh& next, const skeleton3d::Camera& camera,
+                           const BuildOptions& options) {
+  auto painter = render::Painter::open();
+  if (!painter) return painter.failure();
+  for (const auto& [name, mesh] : {std::pair{"plant.png", &plant}, std::pair{"predicted.png", &next}}) {
+    const auto image = painter->draw(*mesh, {.width_px = options.width, .height_px = options.height, .view = camera});
+    if (!image) return image.failure();
+    const auto bytes = render::pngBytes(*image);
+    if (!bytes) return bytes.failure();
+    if (auto written = output.write(name, *bytes); !written) return written;
+  }
+  return {};
+}
+
+/// The growth as pictures, and as a video where one is wanted.
+Result<void> writeGrowth(Output& output, const Growth& growth, const skeleton3d::Camera& camera, const BuildOptions& options) {
+  constexpr int kVideoFrames = 96;
+  const auto at = [&growth](double time) { return simeco::plantAt(growth, time); };
+  render::AnimationOptions animation{.to = simeco::completeTime(growth), .frames = options.frames};
+  animation.picture = {.width_px = options.width, .height_px = options.height, .view = camera};
+  const fs::path folder = output.staging.path();
+  if (auto written = render::writeAnimation(folder / "growth", at, animation, options.chain.watch); !written) return written;
+  for (const auto& entry : fs::directory_iterator(folder / "growth")) output.files.push_back("growth/" + entry.path().filename().string());
+  std::sort(output.files.end() - options.frames, output.files.end());
+  if (options.video == Video::None) return {};
+  animation.frames = kVideoFrames;
+  output.files.emplace_back("growth.mp4");
+  return render::writeAnimation(folder / "growth.mp4", at, animation, options.chain.watch);
+}
+
+double metresPer(const std::string& unit) {
+  static const std::map<std::string, double> metres = {{"m", 1.0}, {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}};
+  const auto known = metres.find(unit);
+  return known == metres.end() ? 1.0 : known->second;
+}
+
+std::string reportText(const BuildReport& report) {
+  nlohmann::ordered_json json = {{"axil_report", 1}, {"name", report.name}, {"unit", report.unit}, {"nodes", report.nodes}, {"stems", report.stems},
+                                 {"segments", report.segments}, {"leaves", report.leaves}, {"height", report.height},
+                                 {"worst_reprojection_px", report.worstReprojection_px}, {"worst_regrown", report.worstRegrown},
+                                 {"suspect_clicks", nlohmann::ordered_json::array()}, {"files", report.files}};
+  for (const auto& click : report.suspects) json["suspect_clicks"].push_back({{"node", click.node.value}, {"view", click.view}, {"off_px", click.off_px}});
+  return jsonLines(json);
+}
+
+BuildReport reportOn(const Project& project, const Skeleton& skeleton, const quantify::Measurements& measurements, const simeco::Plant& plant) {
+  BuildReport report;
+  report.name = project.name;
+  report.unit = project.unit;
+  report.nodes = skeleton.nodes.size();
+  report.stems = skeleton.stems.size();
+  report.segments = measurements.segments.size();
+  report.leaves = skeleton.leaves.size();
+  report.height = heightOf(skeleton);
+  report.worstReprojection_px = worstReprojection(skeleton);
+  report.worstRegrown = worstDistance(skeleton, plant);
+  return report;
+}
+
+}  // namespace
+
+Result<BuildReport> build(const OpenProject& open, const fs::path& folder, const BuildOptions& options) {
+  const Watch& watch = options.chain.watch;
+  const auto clicks = measured(open, options.chain);
+  if (!clicks) return clicks.failure();
+  const auto skeleton = skeletonOf(open.project, *clicks, options.chain);
+  if (!skeleton) return skeleton.failure();
+  const auto measurements = measurementsOf(*skeleton, options.chain);
+  if (!measurements) return measurements.failure();
+  auto staging = StagingFolder::beside(folder);
+  if (!staging) return staging.failure();
+  Output output{std::move(*staging)};
+  if (auto w = output.write("skeleton.json", skeletonText(*skeleton)); !w) return w.failure();
+  if (auto w = output.write("stems.csv", quantify::segmentsCsv(*measurements)); !w) return w.failure();
+
+  watch.report("writing the grammars", 0.1);
+  std::map<GrammarKind, Grammar> grammars;
+  for (const GrammarKind kind : kKinds) {
+    auto grammar = grammarOf(open.project, *measurements, kind, options.chain);
+    if (!grammar) return grammar.failure();
+    if (auto w = output.write(std::string(nameOf(kind)) + ".simeco", simeco::print(*grammar)); !w) return w.failure();
+    grammars.emplace(kind, std::move(*grammar));
+  }
+
+  watch.report("growing", 0.2);
+  const auto growth = simeco::prepareGrowth(grammars.at(GrammarKind::Initial), {.seed = open.project.seed, .watch = watch, .turning = options.chain.turning});
+  if (!growth) return growth.failure();
+  const auto plant = simeco::plantAt(*growth, simeco::completeTime(*growth));
+  if (!plant) return plant.failure();
+  const auto next = nextOf(grammars, open.project, options.chain);
+  if (!next) return next.failure();
+  const auto mesh = render::meshOf(*plant);
+  if (!mesh) return mesh.failure();
+  const auto nextMesh = render::meshOf(*next);
+  if (!nextMesh) return nextMesh.failure();
+  // Everything is seen by one camera, so that the pictures can be laid over each other.
+  const auto camera = render::cameraFitting(*nextMesh, render::ViewPreset::ThreeQuarter, options.width, options.height);
+
+  watch.report("drawing", 0.3);
+  if (auto w = writePictures(output, *mesh, *nextMesh, camera, options); !w) return w.failure();
+  if (auto w = writeGrowth(output, *growth, camera, options); !w) return w.failure();
+  const auto glb = render::glbBytes(*mesh, {.metresPerUnit = metresPer(open.project.unit)});
+  if (!glb) return glb.failure();
+  if (auto w = output.write("plant.glb", *glb); !w) return w.failure();
+
+  BuildReport report = reportOn(open.project, *skeleton, *measurements, *plant);
+  report.suspects = clicks->suspects;
+  output.files.emplace_back("report.json");
+  report.files = output.files;
+  if (auto w = writeFile(output.staging.path() / "report.json", reportText(report)); !w) return w.failure();
+  if (auto published = output.staging.publish(); !published) return published.failure();
+  return report;
+}
+
+}  // namespace axil::document
