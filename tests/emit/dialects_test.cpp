@@ -2,9 +2,10 @@
 
 #include "base/text.hpp"
 #include "grown.hpp"
+#include "simeco/derive.hpp"
+#include "simeco/lsystem_language.hpp"
 
 #include <cmath>
-#include <functional>
 #include <map>
 #include <sstream>
 #include <string>
@@ -191,8 +192,19 @@ TEST(Dialects, CpfgTextIsReadByTheClassicLanguagesOwnParser) {
   Rng rng(72);
   const auto m = valueOf(quantify::measure(test::randomTree(rng)));
   const std::string text = valueOf(inDialect(m, Dialect::Cpfg));
-  EXPECT_NE(text.find("Lsystem: 1"), std::string::npos);
-  EXPECT_NE(text.find("endlsystem"), std::string::npos);
+  const simeco::Parsed parsed = simeco::parseLSystem(text);
+  std::string complaints;
+  for (const Diagnostic& d : parsed.diagnostics) complaints += formatDiagnostic(d, text, "plant.l") + "\n";
+  for (const Diagnostic& d : simeco::checkLSystem(parsed.grammar)) complaints += formatDiagnostic(d, text, "plant.l") + "\n";
+  ASSERT_EQ(complaints, "");
+  // Its own derivation length is enough: every apex has become its segment.
+  const auto derived = valueOf(simeco::derive(parsed.grammar));
+  std::size_t segments = 0;
+  for (const simeco::ModuleView module : derived.string) {
+    EXPECT_NE(module.letter, "A");
+    segments += module.letter == "F";
+  }
+  EXPECT_GE(segments, m.segments.size());
 }
 
 TEST(Dialects, MtgRowsStandInTheColumnOfTheirOrderAndHoldTheNodes) {

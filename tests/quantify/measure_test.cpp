@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <numbers>
 
@@ -136,19 +137,25 @@ TEST(Measure, TheMeasuredTurnsRegrowEveryDirection) {
 }
 
 TEST(Measure, TheLiteralRuleOfTheThesisDoesNotRegrowBranches) {
-  Rng rng(24);
-  double worst = 0;
-  for (int i = 0; i < 20; ++i) {
+  const std::uint64_t seed = 24;
+  std::cout << "seed " << seed << "\n";
+  Rng rng(seed);
+  double sum = 0;
+  std::size_t count = 0;
+  for (int i = 0; i < 200; ++i) {
     const Measurements m = measured(test::randomTree(rng), TurningRule::Literal);
     std::vector<StemFrame> frames{{m.segments[0].direction, m.segments[0].rAxis, m.segments[0].rAxis}};
     for (std::size_t s = 1; s < m.segments.size(); ++s) {
       const Segment& segment = m.segments[s];
       frames.push_back(childFrame(frames[static_cast<std::size_t>(segment.parent->value)], {segment.rotr, segment.rotu},
                                   segment.kind == SegmentKind::Main ? ChildKind::Main : ChildKind::Branch, TurningRule::Literal));
-      worst = std::max(worst, angleBetween(frames.back().direction, segment.direction).degrees());
+      sum += angleBetween(frames.back().direction, segment.direction).degrees();
+      ++count;
     }
   }
-  EXPECT_GT(worst, 10);
+  const double mean = sum / static_cast<double>(count);
+  std::cout << "the literal rule errs by " << mean << " degrees on average\n";
+  EXPECT_GT(mean, 10);
 }
 
 TEST(Measure, TheLiteralRuleMakesTheFirstRotuZero) {
