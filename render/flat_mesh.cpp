@@ -1,0 +1,76 @@
+#include "render/flat_mesh.hpp"
+
+#include "base/rng.hpp"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+namespace axil::render {
+namespace {
+
+/// How strongly the leaves of one plant differ: brightness, and from yellowish to bluish.
+constexpr double brightnessSpread = 0.12, hueSpread = 0.07;
+
+glm::vec3 tintOf(simeco::OrganId organ, Tint tint) {
+  if (tint == Tint::None) return glm::vec3(1);
+  Rng rng = Rng(0x1eaf).split(static_cast<std::uint64_t>(organ.value));
+  const double brightness = 1 + rng.uniform(-brightnessSpread, brightnessSpread);
+  const double yellow = rng.uniform(-hueSpread, hueSpread);
+  return glm::vec3(brightness * (1 + yellow), brightness, brightness * (1 - yellow));
+}
+
+struct Counts {
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+};
+
+Counts countsOf(const PlantMesh& mesh) {
+  Counts counts{mesh.stems.positions.size(), mesh.triangleCount()};
+  for (const OrganModel& model : mesh.models)
+    for (const ModelPart& part : model.parts) counts.vertices += part.mesh.positions.size() * model.placements.size();
+  return counts;
+}
+
+void append(FlatMesh& flat, const ModelPart& part, const Placement& at, const glm::vec3& colour) {
+  const auto first = static_cast<std::uint32_t>(flat.positions.size());
+  const glm::mat3 turn = glm::mat3_cast(at.rotation);
+  const glm::mat3 place(turn[0] * at.scale.x, turn[1] * at.scale.y, turn[2] * at.scale.z);
+  const glm::mat3 normal(turn[0] / at.scale.x, turn[1] / at.scale.y, turn[2] / at.scale.z);
+  for (const glm::vec3& p : part.mesh.positions) flat.positions.push_back(at.position + place * p);
+  for (const glm::vec3& n : part.mesh.normals) flat.normals.push_back(glm::normalize(normal * n));
+  flat.colours.insert(flat.colours.end(), part.mesh.positions.size(), colour);
+  flat.materials.insert(flat.materials.end(), part.mesh.positions.size(), part.material);
+  for (const std::uint32_t index : part.mesh.triangles) flat.triangles.push_back(first + index);
+  flat.sources.insert(flat.sources.end(), part.mesh.triangles.size() / 3, {at.organ, part.material});
+}
+
+void appendStems(FlatMesh& flat, const StemMesh& stems) {
+  flat.positions = stems.positions;
+  flat.normals = stems.normals;
+  flat.colours = stems.colours;
+  flat.triangles = stems.triangles;
+  flat.sources = stems.sources;
+  flat.materials.resize(stems.positions.size());
+  for (std::size_t i = 0; i < stems.triangles.size(); ++i) flat.materials[stems.triangles[i]] = stems.sources[i / 3].material;
+}
+
+}  // namespace
+
+FlatMesh flattened(const PlantMesh& mesh, Tint tint) {
+  const Counts counts = countsOf(mesh);
+  FlatMesh flat;
+  flat.positions.reserve(counts.vertices);
+  flat.normals.reserve(counts.vertices);
+  flat.colours.reserve(counts.vertices);
+  flat.materials.reserve(counts.vertices);
+  flat.triangles.reserve(counts.triangles * 3);
+  flat.sources.reserve(counts.triangles);
+  appendStems(flat, mesh.stems);
+  for (const OrganModel& model : mesh.models)
+    for (const Placement& at : model.placements)
+      for (const ModelPart& part : model.parts)
+        append(flat, part, at, mesh.materials[static_cast<std::size_t>(part.material)].colour * tintOf(at.organ, tint));
+  return flat;
+}
+
+}  // namespace axil::render

@@ -1,0 +1,26 @@
+#pragma once
+/// \file
+/// Private to render: the same small work for many things, on as many threads as there are. Each thing is done alone, so
+/// what comes out does not depend on how many threads there were.
+
+#include <algorithm>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+namespace axil::render {
+
+/// `work(k)` for every k below `count`; `work` writes only to what belongs to k.
+template <class Work>
+void inParallel(std::size_t count, const Work& work) {
+  const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, std::clamp<std::size_t>(count, 1, 8));
+  const auto share = [&](std::size_t first) {
+    for (std::size_t k = first; k < count; k += threads) work(k);
+  };
+  std::vector<std::jthread> others;
+  others.reserve(threads - 1);
+  for (std::size_t t = 1; t < threads; ++t) others.emplace_back(share, t);
+  share(0);
+}
+
+}  // namespace axil::render

@@ -1,0 +1,311 @@
+#include "render/plant_mesh.hpp"
+
+#include "render/axes.hpp"
+#include "render/colour.hpp"
+#include "render/organ_models.hpp"
+#include "render/tube.hpp"
+
+#include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace axil::render {
+namespace {
+
+using organs::Detail;
+using simeco::Organ;
+using simeco::OrganId;
+using simeco::OrganKind;
+using simeco::OrganStyle;
+using simeco::Plant;
+
+/// A stem without a radius is this share of its length thick; no stem is thinner than the second share of the plant.
+constexpr double radiusOfLength = 0.02, thinnestOfExtent = 2e-4;
+/// A stem ends this much thinner than its last segment is, when nothing sits on its tip, and when something does.
+constexpr double freeTipTaper = 0.55, loadedTipTaper = 0.85;
+
+bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+Result<void> checkOrgans(const Plant& plant) {
+  for (std::size_t i = 0; i < plant.organs.size(); ++i) {
+    const Organ& organ = plant.organs[i];
+    if (isFinite(organ.base.at) && std::isfinite(organ.length) && std::isfinite(organ.radius) && organ.length >= 0) continue;
+    return fail(ErrorCode::BadInput, "organ " + std::to_string(i) + " (" + simeco::keywordOf(organ.kind) + ", stage " +
+                                         std::to_string(plant.styleOf(organ).stage) +
+                                         ") has no finite place and size; look for a division by zero or a runaway growth rate in its stage");
+  }
+  return {};
+}
+
+TubeDetail tubeDetailFor(Detail detail, double relativeRadius) {
+  switch (detail) {
+    case Detail::Close: return {.sides = relativeRadius > 0.006 ? 16 : 10, .turnPerRing = 3_deg, .capRings = 3};
+    case Detail::Medium: return {.sides = 8, .turnPerRing = 5_deg, .capRings = 2};
+    case Detail::Far: return {.sides = 5, .turnPerRing = 20_deg, .capRings = 1};
+  }
+  return {};
+}
+
+std::string materialName(const PlantMesh& mesh, const std::string& wanted) {
+  const auto taken = [&](const std::string& name) {
+    return std::any_of(mesh.materials.begin(), mesh.materials.end(), [&](const Material& m) { return m.name == name; });
+  };
+  if (!taken(wanted)) return wanted;
+  int number = 2;
+  while (taken(wanted + " " + std::to_string(number))) ++number;
+  return wanted + " " + std::to_string(number);
+}
+
+std::int32_t addMaterial(PlantMesh& mesh, Material material) {
+  material.name = materialName(mesh, material.name);
+  mesh.materials.push_back(std::move(material));
+  return static_cast<std::int32_t>(mesh.materials.size() - 1);
+}
+
+// ---- stems -----------------------------------------------------------------------------------------------------------
+
+/// What every stem of the plant is measured against.
+struct StemScale {
+  double extent = 0;
+  double thickest = 0;
+};
+
+double radiusOf(const Organ& organ, const StemScale& scale) {
+  const double radius = organ.radius > 0 ? organ.radius : organ.length * radiusOfLength;
+  return std::max(radius, scale.extent * thinnestOfExtent);
+}
+
+double ramp(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// How far a stem of `radius` has turned to bark: the thick ones of a plant whose thickest are stout.
+double woodiness(double radius, const StemScale& scale) {
+  return ramp(0.25, 0.9, radius / scale.thickest) * ramp(0.003, 0.011, scale.thickest / scale.extent);
+}
+
+/// Colour and material of each style of a tube.
+struct StemLook {
+  glm::vec3 colour{0.5f};
+  double bark = 0;  ///< how far it may go over to bark
+  std::int32_t material = 0;
+};
+
+std::vector<StemLook> stemLooksOf(const Plant& plant, PlantMesh& mesh) {
+  std::vector<StemLook> looks(plant.styles.size());
+  std::map<std::tuple<OrganKind, float, float, float>, std::int32_t> known;
+  for (std::size_t i = 0; i < plant.styles.size(); ++i) {
+    const OrganStyle& style = plant.styles[i];
+    if (isModelled(style.kind)) continue;
+    StemLook& look = looks[i];
+    look.colour = style.colour ? naturalColour(*style.colour, style.kind) : defaultColour(style.kind);
+    look.bark = style.kind == OrganKind::Root ? 0 : style.colour ? 0.6 : 1;
+    const auto [at, isNew] = known.try_emplace({style.kind, look.colour.r, look.colour.g, look.colour.b}, 0);
+    if (isNew) at->second = addMaterial(mesh, {.name = style.kind == OrganKind::Root ? "root" : "stem", .colour = look.colour, .roughness = 0.85f});
+    look.material = at->second;
+  }
+  return looks;
+}
+
+/// For each axis whether something sits on its very tip.
+std::vector<bool> loadedTips(const Plant& plant, const PlantAxes& axes) {
+  std::vector<bool> loaded(axes.axes.size(), false);
+  const auto mark = [&](const std::optional<Site>& site) {
+    if (!site) return;
+    const auto axis = static_cast<std::size_t>(site->axis.value);
+    if (static_cast<std::size_t>(site->node) == axes.axes[axis].organs.size()) loaded[axis] = true;
+  };
+  for (const Axis& axis : axes.axes) mark(axis.insertion);
+  for (const Organ& organ : plant.organs)
+    if (isModelled(organ.kind) && organ.length > axes.negligible && organ.parent)
+      mark(axes.siteOfTip[static_cast<std::size_t>(organ.parent->value)]);
+  return loaded;
+}
+
+class StemDrawer {
+ public:
+  StemDrawer(const Plant& plant, const PlantAxes& axes, std::vector<StemLook> looks, StemScale scale)
+      : plant_(plant), looks_(std::move(looks)), scale_(scale), loaded_(loadedTips(plant, axes)), radii_(axes.axes.size()) {}
+
+  [[nodiscard]] TubePath pathOf(const Axis& axis, std::size_t index) {
+    TubePath path;
+    const std::size_t count = axis.organs.size();
+    path.nodes.resize(count + 1);
+    path.segments.reserve(count);
+    for (std::size_t k = 0; k <= count; ++k) path.nodes[k] = nodeAt(axis, k, loaded_[index] ? loadedTipTaper : freeTipTaper);
+    for (const OrganId id : axis.organs) path.segments.push_back({.organ = id, .material = lookOf(plant_.at(id)).material});
+    if (axis.insertion) path.collar.parentRadius = radii_[static_cast<std::size_t>(axis.insertion->axis.value)][static_cast<std::size_t>(axis.insertion->node)];
+    for (const TubeNode& node : path.nodes) radii_[index].push_back(node.radius);
+    return path;
+  }
+
+ private:
+  [[nodiscard]] const StemLook& lookOf(const Organ& organ) const { return looks_[static_cast<std::size_t>(organ.style)]; }
+
+  [[nodiscard]] glm::vec3 colourOf(const Organ& organ) const {
+    const StemLook& look = lookOf(organ);
+    return glm::mix(look.colour, barkColour(), static_cast<float>(look.bark * woodiness(radiusOf(organ, scale_), scale_)));
+  }
+
+  /// Node k of an axis: between two organs it has the mean of their radii and colours.
+  [[nodiscard]] TubeNode nodeAt(const Axis& axis, std::size_t k, double tipTaper) const {
+    const Organ& before = plant_.at(axis.organs[k == 0 ? 0 : k - 1]);
+    const Organ& after = plant_.at(axis.organs[std::min(k, axis.organs.size() - 1)]);
+    const double taper = k == axis.organs.size() ? tipTaper : 1;
+    return {.at = k == 0 ? before.base.at : before.tip().at,
+            .radius = taper * 0.5 * (radiusOf(before, scale_) + radiusOf(after, scale_)),
+            .colour = (colourOf(before) + colourOf(after)) * 0.5f};
+  }
+
+  const Plant& plant_;
+  std::vector<StemLook> looks_;
+  StemScale scale_;
+  std::vector<bool> loaded_;
+  std::vector<std::vector<double>> radii_;  ///< an axis' radius at each of its nodes, once it is drawn
+};
+
+StemScale stemScaleOf(const Plant& plant, const PlantAxes& axes) {
+  StemScale scale{.extent = extentOf(plant), .thickest = 0};
+  for (const Axis& axis : axes.axes)
+    for (const OrganId id : axis.organs) scale.thickest = std::max(scale.thickest, radiusOf(plant.at(id), scale));
+  return scale;
+}
+
+Result<void> addStems(PlantMesh& mesh, const Plant& plant, Detail detail, std::size_t maximumTriangles) {
+  const PlantAxes axes = axesOf(plant, Continuation::Straightest);
+  const StemScale scale = stemScaleOf(plant, axes);
+  StemDrawer drawer(plant, axes, stemLooksOf(plant, mesh), scale);
+  TubeBuilder builder;
+  for (std::size_t i = 0; i < axes.axes.size(); ++i) {
+    const TubePath path = drawer.pathOf(axes.axes[i], i);
+    builder.add(path, tubeDetailFor(detail, path.nodes.front().radius / scale.extent));
+    if (builder.triangleCount() > maximumTriangles)
+      return fail(ErrorCode::LimitReached, "the stems alone have more than " + std::to_string(maximumTriangles) +
+                                               " triangles; grow fewer steps or ask for a lower level of detail");
+  }
+  mesh.stems = builder.take();
+  return {};
+}
+
+// ---- leaves, flowers, fruits -----------------------------------------------------------------------------------------
+
+struct ModelSlot {
+  std::size_t index = 0;       ///< into PlantMesh::models
+  float naturalWidth = 1;      ///< across the main part, in lengths
+};
+
+bool isMainPart(const std::string& name) { return name == "blade" || name == "petal" || name == "flesh"; }
+
+/// The colour of a part once its style has named a colour for the whole organ: the main part takes it, what belongs to a
+/// leaf moves along with it, the inside of a flower stays as it is.
+glm::vec3 partColour(const organs::Part& part, const std::vector<organs::Part>& parts, const OrganStyle& style) {
+  if (!style.colour) return part.colour;
+  const glm::vec3 named = naturalColour(*style.colour, style.kind);
+  if (isMainPart(part.name) || parts.size() == 1) return named;
+  if (style.kind != OrganKind::Leaf) return part.colour;
+  const auto blade = std::find_if(parts.begin(), parts.end(), [](const organs::Part& p) { return isMainPart(p.name); });
+  const glm::vec3 main = blade == parts.end() ? part.colour : blade->colour;
+  return glm::min(part.colour * (named / glm::max(main, glm::vec3(0.01f))), glm::vec3(0.9f));
+}
+
+/// Across the main part: what a style's radius is half of.
+float widthOf(const std::vector<organs::Part>& parts) {
+  const auto main = std::find_if(parts.begin(), parts.end(), [](const organs::Part& part) { return isMainPart(part.name); });
+  float low = 0, high = 0;
+  for (const glm::vec3& p : (main == parts.end() ? parts.front() : *main).mesh.positions) {
+    low = std::min(low, p.x);
+    high = std::max(high, p.x);
+  }
+  return std::max(high - low, 1e-4f);
+}
+
+OrganModel makeModel(PlantMesh& mesh, const ModelMesh& source, const OrganStyle& style) {
+  OrganModel model{.name = source.name, .parts = {}, .placements = {}};
+  for (const organs::Part& part : source.parts) {
+    const bool thin = part.name == "blade" || part.name == "petal" || part.name == "sepal" || part.name == "wing" || part.name == "calyx";
+    Material material{.name = source.name + " " + part.name, .colour = partColour(part, source.parts, style),
+                      .roughness = style.kind == OrganKind::Fruit ? 0.45f : 0.7f, .surface = thin ? Surface::Blade : Surface::Solid};
+    model.parts.push_back({.material = addMaterial(mesh, std::move(material)), .mesh = part.mesh});
+  }
+  return model;
+}
+
+/// The models that the plant's styles ask for, one for all styles that look the same; an index a style.
+class Models {
+ public:
+  Models(const Plant& plant, PlantMesh& mesh, Detail detail) : plant_(plant), mesh_(mesh), detail_(detail), slots_(plant.styles.size()) {}
+
+  [[nodiscard]] const ModelSlot& slotOf(std::int32_t style) {
+    auto& slot = slots_[static_cast<std::size_t>(style)];
+    if (!slot) slot = makeSlot(plant_.styles[static_cast<std::size_t>(style)]);
+    return *slot;
+  }
+
+ private:
+  [[nodiscard]] ModelSlot makeSlot(const OrganStyle& style) {
+    const glm::dvec4 colour = style.colour.value_or(glm::dvec4(-1));
+    const auto key = std::tuple(style.kind, modelStem(style.model), colour.r, colour.g, colour.b);
+    if (const auto at = known_.find(key); at != known_.end()) return at->second;
+    const ModelMesh source = modelFor(style.kind, style.model, detail_);
+    if (!source.note.empty() && noted_.insert(source.note).second) mesh_.notes.push_back(source.note);
+    const ModelSlot slot{.index = mesh_.models.size(), .naturalWidth = widthOf(source.parts)};
+    mesh_.models.push_back(makeModel(mesh_, source, style));
+    return known_.emplace(key, slot).first->second;
+  }
+
+  const Plant& plant_;
+  PlantMesh& mesh_;
+  Detail detail_;
+  std::vector<std::optional<ModelSlot>> slots_;
+  std::map<std::tuple<OrganKind, std::string, double, double, double>, ModelSlot> known_;
+  std::set<std::string> noted_;
+};
+
+/// A model's frame is the organ's: +Y along it, +Z its adaxial side. Its width follows the organ's radius where it has one.
+Placement placementOf(const Organ& organ, OrganId id, const ModelSlot& slot) {
+  const glm::dvec3 y = organ.direction.unit();
+  const glm::dvec3 z = organ.adaxial.unit();
+  const glm::dvec3 x = glm::cross(y, z);
+  const double across = organ.radius > 0 ? 2 * organ.radius / slot.naturalWidth : organ.length;
+  const double through = organ.kind == OrganKind::Leaf ? std::sqrt(across * organ.length) : across;
+  return {.organ = id, .position = glm::vec3(organ.base.at), .rotation = glm::quat(glm::normalize(glm::quat_cast(glm::dmat3(x, y, z)))),
+          .scale = glm::vec3(across, organ.length, through)};
+}
+
+void addModels(PlantMesh& mesh, const Plant& plant, Detail detail) {
+  const double negligible = extentOf(plant) * 1e-7;
+  Models models(plant, mesh, detail);
+  for (std::size_t i = 0; i < plant.organs.size(); ++i) {
+    const Organ& organ = plant.organs[i];
+    if (!isModelled(organ.kind) || organ.length <= negligible) continue;
+    const ModelSlot& slot = models.slotOf(organ.style);
+    mesh.models[slot.index].placements.push_back(placementOf(organ, OrganId(static_cast<std::int32_t>(i)), slot));
+  }
+}
+
+}  // namespace
+
+Detail detailFor(std::size_t organCount) {
+  return organCount <= 400 ? Detail::Close : organCount <= 15'000 ? Detail::Medium : Detail::Far;
+}
+
+Result<PlantMesh> meshOf(const Plant& plant, const MeshOptions& options) {
+  if (const auto checked = checkOrgans(plant); !checked) return checked.failure();
+  PlantMesh mesh;
+  mesh.name = plant.name;
+  if (!plant.organs.empty()) mesh.collar = plant.organs.front().base;
+  const Detail detail = options.detail.value_or(detailFor(plant.organs.size()));
+  if (const auto stems = addStems(mesh, plant, detail, options.maximumTriangles); !stems) return stems.failure();
+  addModels(mesh, plant, detail);
+  if (mesh.triangleCount() <= options.maximumTriangles) return mesh;
+  return fail(ErrorCode::LimitReached, "the plant has " + std::to_string(mesh.triangleCount()) + " triangles, more than the limit of " +
+                                           std::to_string(options.maximumTriangles) + "; grow fewer steps or ask for a lower level of detail");
+}
+
+}  // namespace axil::render

@@ -1,1 +1,0 @@
-#include "simeco/plant.hpp"

@@ -1,0 +1,245 @@
+#include "render/tube.hpp"
+
+#include "base/result.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace axil::render {
+namespace {
+
+/// A bend sharper than this is no bend of a stem: two tubes meet in a ball.
+constexpr double sharpestBend = 100.0 * std::numbers::pi / 180.0;
+/// Rings between two nodes, at most; keeps a wild curve from filling the memory.
+constexpr int maximumSteps = 16;
+/// How much wider a branch is where it leaves its parent.
+constexpr double collarWidening = 0.28;
+
+double angleOf(const glm::dvec3& a, const glm::dvec3& b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
+
+struct Chord {
+  glm::dvec3 direction{0, 1, 0};
+  double length = 0;
+};
+
+std::vector<Chord> chordsOf(const std::vector<TubeNode>& nodes) {
+  std::vector<Chord> chords(nodes.size() - 1);
+  for (std::size_t i = 0; i < chords.size(); ++i) {
+    const glm::dvec3 step = nodes[i + 1].at - nodes[i].at;
+    chords[i].length = glm::length(step);
+    chords[i].direction = step / chords[i].length;
+  }
+  return chords;
+}
+
+/// Whether a tube of `radius` can follow the bend between two chords without folding into itself: the arc that fits the
+/// shorter one must be wider than the tube.
+bool needsBall(const Chord& before, const Chord& after, double radius) {
+  const double bend = angleOf(before.direction, after.direction);
+  if (bend > sharpestBend) return true;
+  return std::min(before.length, after.length) < 2 * radius * std::tan(bend / 2);
+}
+
+/// The centre line between two nodes: a cubic by its control points.
+struct Cubic {
+  glm::dvec3 b0, b1, b2, b3;
+};
+
+/// From node `i` to the next. Where a run starts or ends the curve runs out straight (no bend at its end).
+Cubic cubicAt(const std::vector<TubeNode>& nodes, const std::vector<Chord>& chords, std::size_t i, bool startsRun, bool endsRun) {
+  const double third = chords[i].length / 3;
+  Cubic c{.b0 = nodes[i].at, .b1 = nodes[i].at + chords[i].direction * third, .b2 = nodes[i + 1].at - chords[i].direction * third, .b3 = nodes[i + 1].at};
+  if (!startsRun) c.b1 = c.b0 + glm::normalize(chords[i - 1].direction + chords[i].direction) * third;
+  if (!endsRun) c.b2 = c.b3 - glm::normalize(chords[i].direction + chords[i + 1].direction) * third;
+  if (startsRun && !endsRun) c.b1 = (c.b0 + c.b2) * 0.5;
+  if (endsRun && !startsRun) c.b2 = (c.b1 + c.b3) * 0.5;
+  return c;
+}
+
+int stepsFor(const Cubic& c, const TubeDetail& detail) {
+  const double turn = angleOf(c.b1 - c.b0, c.b2 - c.b1) + angleOf(c.b2 - c.b1, c.b3 - c.b2);
+  return std::clamp(static_cast<int>(std::ceil(turn / detail.turnPerRing.radians() - 1e-6)), 1, maximumSteps);
+}
+
+TubeRing ringAt(const TubeNode& from, const TubeNode& to, const Cubic& c, double u, std::int32_t segment) {
+  const double v = 1 - u;
+  const glm::dvec3 at = u >= 1 ? c.b3 : c.b0 * (v * v * v) + c.b1 * (3 * v * v * u) + c.b2 * (3 * v * u * u) + c.b3 * (u * u * u);
+  const glm::dvec3 tangent = glm::normalize((c.b1 - c.b0) * (v * v) + (c.b2 - c.b1) * (2 * v * u) + (c.b3 - c.b2) * (u * u));
+  return {.at = at, .tangent = tangent, .radius = from.radius + (to.radius - from.radius) * u, .tilt = 0,
+          .colour = from.colour + (to.colour - from.colour) * static_cast<float>(u), .segment = segment};
+}
+
+double smoothStep(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// How wide a tube of `radius` is at `along` from its base on its parent's axis: never wider than the parent inside it.
+double collaredRadius(double radius, double along, const TubeCollar& collar) {
+  if (collar.parentRadius <= 0) return radius;
+  const double out = collar.parentRadius;
+  const double widening = 1 - smoothStep(out, out + 2.5 * radius, along);
+  const double widened = radius * (1 + collarWidening * widening);
+  return along < out ? std::min(widened, std::max(0.98 * collar.parentRadius, 0.3 * radius)) : widened;
+}
+
+/// Where along the first segment a collar needs rings, as shares of the segment, beside the even steps.
+std::vector<double> stepShares(int steps, double length, double radius, const TubeCollar& collar) {
+  std::vector<double> shares;
+  shares.reserve(static_cast<std::size_t>(steps) + 5);
+  for (int k = 1; k <= steps; ++k) shares.push_back(static_cast<double>(k) / steps);
+  if (collar.parentRadius <= 0) return shares;
+  for (const double along : {0.6 * collar.parentRadius, collar.parentRadius, collar.parentRadius + 0.8 * radius,
+                             collar.parentRadius + 1.6 * radius, collar.parentRadius + 2.5 * radius})
+    if (along < 0.97 * length) shares.push_back(along / length);
+  std::sort(shares.begin(), shares.end());
+  shares.erase(std::unique(shares.begin(), shares.end(), [](double a, double b) { return b - a < 0.01; }), shares.end());
+  shares.back() = 1;
+  return shares;
+}
+
+/// The double reflection method: the ring normal carried from one ring to the next without twist.
+glm::dvec3 carriedNormal(const TubeRing& from, const TubeRing& to, const glm::dvec3& normal) {
+  const glm::dvec3 v1 = to.at - from.at;
+  const double c1 = glm::dot(v1, v1);
+  if (c1 <= 0) return normal;
+  const glm::dvec3 reflectedNormal = normal - v1 * (2 / c1 * glm::dot(v1, normal));
+  const glm::dvec3 reflectedTangent = from.tangent - v1 * (2 / c1 * glm::dot(v1, from.tangent));
+  const glm::dvec3 v2 = to.tangent - reflectedTangent;
+  const double c2 = glm::dot(v2, v2);
+  const glm::dvec3 carried = c2 <= 0 ? reflectedNormal : reflectedNormal - v2 * (2 / c2 * glm::dot(v2, reflectedNormal));
+  return glm::normalize(carried - to.tangent * glm::dot(carried, to.tangent));
+}
+
+glm::dvec3 anyNormal(const glm::dvec3& tangent) {
+  const glm::dvec3 helper = std::abs(tangent.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+  return glm::normalize(helper - tangent * glm::dot(helper, tangent));
+}
+
+/// How far the surface leans out of the ring's plane, for its normals: by the taper between the neighbours.
+void setTilts(std::vector<TubeRing>& rings) {
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const TubeRing& before = rings[i == 0 ? 0 : i - 1];
+    const TubeRing& after = rings[i + 1 == rings.size() ? i : i + 1];
+    rings[i].tilt = std::atan2(before.radius - after.radius, glm::distance(before.at, after.at));
+  }
+}
+
+/// Ring `k` of `count` of the ball at an end: `sign` -1 below the base, +1 beyond the tip.
+TubeRing capRing(const TubeRing& end, int k, int count, double sign) {
+  TubeRing ring = end;
+  const double latitude = std::numbers::pi / 2 * k / count;
+  ring.at = end.at + end.tangent * (sign * end.radius * std::sin(latitude));
+  ring.radius = end.radius * std::cos(latitude);
+  ring.tilt = sign * latitude;
+  return ring;
+}
+
+/// A run with the rings of the balls at both ends; the poles themselves are vertices, not rings.
+std::vector<TubeRing> withRoundEnds(const std::vector<TubeRing>& run, int capRings) {
+  std::vector<TubeRing> rings;
+  rings.reserve(run.size() + 2 * static_cast<std::size_t>(std::max(capRings, 1)));
+  for (int k = capRings - 1; k >= 1; --k) rings.push_back(capRing(run.front(), k, capRings, -1));
+  rings.insert(rings.end(), run.begin(), run.end());
+  for (int k = 1; k < capRings; ++k) rings.push_back(capRing(run.back(), k, capRings, 1));
+  return rings;
+}
+
+/// The top of the ball whose outermost ring is `ring`: as far on as the ball's radius is more than its height there.
+glm::dvec3 poleOf(const TubeRing& ring, double sign) {
+  const double latitude = std::abs(ring.tilt);
+  const double ball = ring.radius / std::cos(latitude);
+  return ring.at + ring.tangent * (sign * ball * (1 - std::sin(latitude)));
+}
+
+}  // namespace
+
+std::vector<std::vector<TubeRing>> centreLine(const TubePath& path, const TubeDetail& detail) {
+  const std::vector<TubeNode>& nodes = path.nodes;
+  const std::vector<Chord> chords = chordsOf(nodes);
+  std::vector<std::vector<TubeRing>> runs;
+  for (std::size_t i = 0; i < chords.size(); ++i) {
+    const bool startsRun = i == 0 || needsBall(chords[i - 1], chords[i], nodes[i].radius);
+    const bool endsRun = i + 1 == chords.size() || needsBall(chords[i], chords[i + 1], nodes[i + 1].radius);
+    const Cubic cubic = cubicAt(nodes, chords, i, startsRun, endsRun);
+    const auto segment = static_cast<std::int32_t>(i);
+    const TubeCollar collar = i == 0 ? path.collar : TubeCollar{};
+    if (startsRun) {
+      runs.emplace_back();
+      runs.back().push_back(ringAt(nodes[i], nodes[i + 1], cubic, 0, segment));
+      runs.back().back().radius = collaredRadius(nodes[i].radius, 0, collar);
+    }
+    const int steps = stepsFor(cubic, detail);
+    for (const double u : stepShares(steps, chords[i].length, nodes[i].radius, collar)) {
+      runs.back().push_back(ringAt(nodes[i], nodes[i + 1], cubic, u, segment));
+      runs.back().back().radius = collaredRadius(runs.back().back().radius, u * chords[i].length, collar);
+    }
+  }
+  for (std::vector<TubeRing>& run : runs) setTilts(run);
+  return runs;
+}
+
+void TubeBuilder::addRing(const TubeRing& ring, const glm::dvec3& normal) {
+  const glm::dvec3 across = glm::cross(ring.tangent, normal);
+  const double lean = std::sin(ring.tilt), out = std::cos(ring.tilt);
+  for (const glm::dvec2& side : circle_) {
+    const glm::dvec3 radial = normal * side.x + across * side.y;
+    mesh_.positions.emplace_back(ring.at + radial * ring.radius);
+    mesh_.normals.emplace_back(radial * out + ring.tangent * lean);
+    mesh_.colours.push_back(ring.colour);
+  }
+}
+
+/// A vertex on the centre line that closes an end; returns its index.
+std::uint32_t TubeBuilder::addPole(const glm::dvec3& at, const glm::dvec3& normal, const glm::vec3& colour) {
+  mesh_.positions.emplace_back(at);
+  mesh_.normals.emplace_back(normal);
+  mesh_.colours.push_back(colour);
+  return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
+}
+
+void TubeBuilder::addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, const TriangleSource& source) {
+  mesh_.triangles.insert(mesh_.triangles.end(), {a, b, c});
+  mesh_.sources.push_back(source);
+}
+
+void TubeBuilder::sweep(std::span<const TubeRing> rings, std::span<const TriangleSource> segments) {
+  const auto sides = static_cast<std::uint32_t>(circle_.size());
+  const auto sourceOf = [&](const TubeRing& ring) { return segments[static_cast<std::size_t>(ring.segment)]; };
+  const auto next = [&](std::uint32_t s) { return s + 1 == sides ? 0 : s + 1; };
+
+  const TubeRing& base = rings.front();
+  const TubeRing& tip = rings.back();
+  const std::uint32_t basePole = addPole(poleOf(base, -1), -base.tangent, base.colour);
+  std::uint32_t lower = basePole + 1;
+  glm::dvec3 normal = anyNormal(base.tangent);
+  addRing(base, normal);
+  for (std::uint32_t s = 0; s < sides; ++s) addTriangle(basePole, lower + next(s), lower + s, sourceOf(base));
+  for (std::size_t i = 1; i < rings.size(); ++i, lower += sides) {
+    normal = carriedNormal(rings[i - 1], rings[i], normal);
+    addRing(rings[i], normal);
+    for (std::uint32_t s = 0; s < sides; ++s) {
+      addTriangle(lower + s, lower + next(s), lower + sides + next(s), sourceOf(rings[i]));
+      addTriangle(lower + s, lower + sides + next(s), lower + sides + s, sourceOf(rings[i]));
+    }
+  }
+  const std::uint32_t tipPole = addPole(poleOf(tip, 1), tip.tangent, tip.colour);
+  for (std::uint32_t s = 0; s < sides; ++s) addTriangle(tipPole, lower + s, lower + next(s), sourceOf(tip));
+}
+
+void TubeBuilder::add(const TubePath& path, const TubeDetail& detail) {
+  AXIL_ASSERT(path.nodes.size() >= 2 && path.segments.size() + 1 == path.nodes.size(), "a tube has two nodes, and a segment between each two");
+  if (circle_.size() != static_cast<std::size_t>(detail.sides)) {
+    circle_.resize(static_cast<std::size_t>(detail.sides));
+    for (int s = 0; s < detail.sides; ++s) {
+      const double angle = 2 * std::numbers::pi * s / detail.sides;
+      circle_[static_cast<std::size_t>(s)] = {std::cos(angle), std::sin(angle)};
+    }
+  }
+  for (const std::vector<TubeRing>& run : centreLine(path, detail)) sweep(withRoundEnds(run, detail.capRings), path.segments);
+}
+
+}  // namespace axil::render
