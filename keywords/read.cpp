@@ -141,7 +141,8 @@ class BlockReader {
 
   // "in the axils of leaves": an organ that is only the place of another does not take over.
   [[nodiscard]] bool isPlaceOnly(std::size_t i) const {
-    if (!scope_.organInSentence || i == 0) return false;
+    const bool isMeasuredItself = found_[i].end < tokens_.size() && tokens_[found_[i].end].kind == TokenKind::Number;  // "in racemes 5-10 cm long"
+    if (!scope_.organInSentence || i == 0 || isMeasuredItself) return false;
     std::size_t before = i - 1;
     if (before > 0 && isAny(before, {"the", "its", "each", "a"})) --before;
     if (before > 0 && is(before, "of") && isAny(before - 1, {"pairs", "pair", "whorls", "clusters"})) return false;
@@ -170,8 +171,16 @@ class BlockReader {
       evidence_ += 2;
     } else if (organ.name != "plant" && std::find(organsSeen_.begin(), organsSeen_.end(), &organ) == organsSeen_.end()) {
       organsSeen_.push_back(&organ);
-      ++evidence_;
+      evidence_ += 1 + (opensAStatement(i) ? 1 : 0);
     }
+  }
+
+  // "Leaves not whorled", "Seeds 3-6": an organ that begins a sentence and goes on without a verb, as descriptions do.
+  [[nodiscard]] bool opensAStatement(std::size_t i) const {
+    const bool begins = i == 0 || isSentenceEnd(tokens_, i - 1, text_, firstByte_);
+    const std::size_t next = found_[i].end;
+    if (!begins || next >= tokens_.size()) return false;
+    return isAny(next, {"not"}) || tokens_[next].kind == TokenKind::Number || !qualifierOf(tokens_[next].text).empty();
   }
 
   [[nodiscard]] bool isRightBehindOrgan(std::size_t i) const {
@@ -315,7 +324,9 @@ class BlockReader {
     }
     last_ = now;
     // 羽狀複葉,長20公分: the phrase has named the leaf itself.
-    if (isOneOf(f.phrase->words.back(), {"葉", "叶"}) && f.as("organ") == nullptr) enterLeaf(f.end);
+    const auto isLeafWord = [](const std::string& word) { return isOneOf(word, {"葉", "叶"}); };
+    const bool namesLeaf = isLeafWord(f.phrase->words.front()) || isLeafWord(f.phrase->words.back());
+    if (namesLeaf && f.as("organ") == nullptr) enterLeaf(f.end);
   }
 
   void enterLeaf(std::size_t end) {

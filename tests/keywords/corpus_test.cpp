@@ -1,0 +1,89 @@
+// The corpus: sentences with all that they say. Precision and recall by property are printed; a reader who gets worse fails.
+#include "base/files.hpp"
+#include "base/table.hpp"
+#include "base/text.hpp"
+#include "keywords/keywords.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace axil::keywords {
+namespace {
+
+std::string inShort(const Trait& trait) {
+  std::string text = trait.organ + "|" + trait.property + "|";
+  if (!trait.value.empty()) return text + trait.value;
+  if (trait.low) text += shortest(*trait.low);
+  if (trait.high && trait.low != trait.high) text += (trait.low ? "-" : "..") + shortest(*trait.high);
+  return trait.unit.empty() ? text : text + " " + trait.unit;
+}
+
+std::string propertyOf(const std::string& inShort) {
+  const std::size_t from = inShort.find('|') + 1;
+  return inShort.substr(from, inShort.find('|', from) - from);
+}
+
+struct Score {
+  int right = 0;
+  int missed = 0;
+  int invented = 0;
+  [[nodiscard]] double f1() const { return right == 0 ? 0 : 2.0 * right / (2.0 * right + missed + invented); }
+};
+
+void compare(std::vector<std::string> expected, const std::vector<std::string>& read, const std::string& sentence, std::map<std::string, Score>& scores) {
+  for (const std::string& trait : read) {
+    const auto found = std::find(expected.begin(), expected.end(), trait);
+    if (found == expected.end()) {
+      ++scores[propertyOf(trait)].invented;
+      std::printf("  invented %s in: %s\n", trait.c_str(), sentence.c_str());
+    } else {
+      ++scores[propertyOf(trait)].right;
+      expected.erase(found);
+    }
+  }
+  for (const std::string& trait : expected) {
+    ++scores[propertyOf(trait)].missed;
+    std::printf("  missed %s in: %s\n", trait.c_str(), sentence.c_str());
+  }
+}
+
+std::map<std::string, Score> scoresOf(const std::string& name) {
+  const Result<std::string> text = readFile(std::string(AXIL_TEST_DIR) + "/corpus/" + name);
+  EXPECT_TRUE(text) << text.error().message;
+  const Result<Table> table = readTable(*text, name);
+  EXPECT_TRUE(table) << table.error().message;
+  std::map<std::string, Score> scores;
+  for (const Table::Row& row : table->rows) {
+    const std::string& sentence = table->cell(row, "sentence");
+    const Result<Traits> traits = readTraits(sentence);
+    EXPECT_TRUE(traits) << sentence;
+    std::vector<std::string> read;
+    for (const Trait& trait : *traits) read.push_back(inShort(trait));
+    const std::string& expected = table->cell(row, "traits");
+    compare(expected == "-" ? std::vector<std::string>{} : splitList(expected, ';'), read, sentence, scores);
+  }
+  return scores;
+}
+
+class Corpus : public testing::TestWithParam<const char*> {};
+
+TEST_P(Corpus, IsReadNearlyWithoutFault) {
+  const std::map<std::string, Score> scores = scoresOf(GetParam());
+  std::printf("%-24s right missed invented    F1\n", GetParam());
+  for (const auto& [property, score] : scores) {
+    std::printf("  %-22s %5d %6d %8d %5.3f\n", property.c_str(), score.right, score.missed, score.invented, score.f1());
+    EXPECT_GE(score.f1(), 0.95) << property;
+  }
+  EXPECT_GE(scores.size(), 10u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scripts, Corpus, testing::Values("english.tsv", "traditional.tsv", "simplified.tsv"),
+                         [](const auto& script) { return std::string(script.param).substr(0, std::string(script.param).find('.')); });
+
+}  // namespace
+}  // namespace axil::keywords
