@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <iconv.h>
 #include <vector>
 
@@ -79,6 +81,12 @@ std::optional<std::string> convert(std::string_view bytes, const char* from) {
 
 bool isUtf8(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
+    // Most texts are mostly ASCII: eight such bytes at a time.
+    for (std::uint64_t eight = 0; i + sizeof eight <= text.size(); i += sizeof eight) {
+      std::memcpy(&eight, text.data() + i, sizeof eight);
+      if ((eight & 0x8080808080808080ull) != 0) break;
+    }
+    if (i == text.size()) break;
     const auto byte = static_cast<unsigned char>(text[i]);
     const std::size_t length = utf8Length(text[i]);
     if (length == 1 && byte >= 0x80) return false;

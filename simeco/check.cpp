@@ -152,6 +152,7 @@ class Checker {
     const auto word = std::find_if(words.begin(), words.end(), [&](const AttributeWord& w) { return w.name == a.name; });
     if (word == words.end()) return unknownAttribute(a, place);
     if (word->since11) since11("attributes such as '" + a.name + "'", a.where);
+    if (!word->warning.empty()) report_.warning(a.where, "'" + a.name + "' is read, but " + std::string(word->warning));
     if ((word->places & place) == 0) report_.warning(a.where, "'" + a.name + "' has no effect here", "it belongs into " + placesOf(word->places));
     value(a, word->kind);
   }
@@ -180,14 +181,12 @@ class Checker {
       if (!call || call->function != function) wants(what);
     };
     switch (kind) {
-      case ValueKind::Any: return;
       case ValueKind::Words:
         if (!std::holds_alternative<Text>(expr.node)) wants("a text in quotes, for example \"leaf.i\"");
         return;
       case ValueKind::Vector: return wantsCall("vector", "a vector(x, y, z)");
       case ValueKind::Colour: return wantsCall("RGBA", "a colour RGBA(red, green, blue, alpha)");
       case ValueKind::Material: return wantsCall("MTRL", "a material MTRL(...) of six numbers");
-      case ValueKind::Response: return wantsCall("response", "a response(x1, y1, x2, y2, ...)");
       case ValueKind::Number:
       case ValueKind::NotNegative:
       case ValueKind::Positive: return number(a, kind);
@@ -196,7 +195,7 @@ class Checker {
   void number(const Attribute& a, ValueKind kind) {
     const Expr& expr = grammar_.at(a.value);
     const auto* call = std::get_if<Call>(&expr.node);
-    const bool isThing = call && (call->function == "vector" || call->function == "RGBA" || call->function == "MTRL" || call->function == "response");
+    const bool isThing = call && (call->function == "vector" || call->function == "RGBA" || call->function == "MTRL");
     if (isThing || std::holds_alternative<Text>(expr.node)) return report_.error(expr.where, "'" + a.name + "' is a number");
     const auto known = Folder(grammar_, {}, 0).at(a.value);
     if (!known) return;
@@ -218,7 +217,8 @@ class Checker {
     gatherStages(p);
     rules(p.rules);
     for (const RuleSet& further : p.subRules) {
-      since11("several Grow blocks", p.where);
+      const SourceSpan where = further.axiom.empty() ? p.where : further.axiom.front().where;
+      report_.error(where, "a plant has one Grow block", "join the two; sub-L-systems can be written in an L-system file (.l)");
       rules(further);
     }
     unusedStages(p);
@@ -442,7 +442,7 @@ class Checker {
   void letter(const Module& m) {
     const LetterWord* word = known(m.letter, m.where);
     if (!word) return;
-    if (word->since11) since11("query modules and cut", m.where);
+    if (word->since11) since11("modules such as " + m.letter, m.where);
     const auto count = static_cast<int>(m.arguments.size());
     if (count >= word->fewest && count <= word->most) {
       if (count > word->fewest && !word->since11) since11("modules with further arguments", m.where);
@@ -575,7 +575,6 @@ class Checker {
     if (word->since11) since11(n.function == "random" || n.function == "normal" ? "random numbers" : "functions such as " + n.function, where);
     const auto count = static_cast<int>(n.arguments.size());
     if (count >= word->fewest && (word->most < 0 || count <= word->most)) {
-      if (n.function == "response" && count % 2 != 0) report_.error(where, "'response' takes pairs of numbers x, y");
       return;
     }
     const std::string wanted = (word->fewest == word->most ? "" : "at least ") + std::to_string(word->fewest);

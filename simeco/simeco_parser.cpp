@@ -88,9 +88,14 @@ std::string unquoted(std::string_view text) {
 
 /// The number as it will be printed again: its decimals are kept where that gives back the value.
 Number literal(std::string_view text, double value) {
-  const std::size_t point = text.find('.');
-  const bool plain = text.find_first_of("eE") == std::string_view::npos && !(value == 0 && std::signbit(value));
-  const std::size_t decimals = point == std::string_view::npos ? 0 : text.size() - point - 1;
+  std::size_t decimals = 0;
+  bool afterPoint = false;
+  bool plain = !(value == 0 && std::signbit(value));
+  for (const char c : text) {
+    if (afterPoint) ++decimals;
+    if (c == '.') afterPoint = true;
+    if (c == 'e' || c == 'E') plain = false;
+  }
   constexpr std::size_t kMostKept = 17;
   return {value, plain && decimals <= kMostKept ? static_cast<int>(decimals) : -1};
 }
@@ -98,8 +103,8 @@ Number literal(std::string_view text, double value) {
 class Parser {
  public:
   explicit Parser(std::string_view text) : text_(text), lexer_(text, report_) {
-    grammar_.expressions.reserve(text.size() / 24);
-    depths_.reserve(text.size() / 24);
+    grammar_.expressions.reserve(text.size() / 20);
+    depths_.reserve(text.size() / 20);
     advance();
   }
 
@@ -165,12 +170,16 @@ class Parser {
   [[nodiscard]] SourceSpan gap() const {
     return token_.startsLine || is(TokenKind::End) ? SourceSpan{previousEnd_ > 0 ? previousEnd_ - 1 : 0, previousEnd_} : token_.span;
   }
-  void missing(TokenKind kind, const std::string& where) {
-    slip(gap(), "missing '" + std::string(signOf(kind)) + "' " + where, "");
+  /// "after the arguments of" "rotr": the words are only put together when they are needed.
+  static std::string placeWords(std::string_view where, std::string_view subject) {
+    return std::string(where) + (subject.empty() ? "" : " '" + std::string(subject) + "'");
   }
-  bool expect(TokenKind kind, const std::string& where) {
+  void missing(TokenKind kind, std::string_view where, std::string_view subject) {
+    slip(gap(), "missing '" + std::string(signOf(kind)) + "' " + placeWords(where, subject));
+  }
+  bool expect(TokenKind kind, std::string_view where, std::string_view subject = {}) {
     if (take(kind)) return true;
-    error(gap(), "'" + std::string(signOf(kind)) + "' is expected " + where + ", but here " + seen());
+    error(gap(), "'" + std::string(signOf(kind)) + "' is expected " + placeWords(where, subject) + ", but here " + seen());
     return false;
   }
   void endItem(const char* what) {
@@ -209,10 +218,12 @@ class Parser {
   /// Whether a block with a keyword starts here.
   [[nodiscard]] bool atBlock() {
     if (!is(TokenKind::Word)) return false;
+    const TokenKind next = peek().kind;
+    if (next != TokenKind::LeftBrace && next != TokenKind::Text && next != TokenKind::Number) return false;
     const std::string_view word = textOf(token_);
-    if (word == "Plant") return peek().kind == TokenKind::Text || peek().kind == TokenKind::LeftBrace;
-    if (word == "Stage") return peek().kind == TokenKind::Number;
-    return (word == "Grow" || organOfKeyword(word)) && peek().kind == TokenKind::LeftBrace;
+    if (word == "Plant") return next != TokenKind::Number;
+    if (word == "Stage") return next == TokenKind::Number;
+    return (word == "Grow" || organOfKeyword(word)) && next == TokenKind::LeftBrace;
   }
 
   // ---- comments ----
@@ -265,7 +276,7 @@ class Parser {
 
   void openBlock(Level level, SourceSpan header, Comments& comments) {
     if (panic_) recoverHeader();
-    if (!is(TokenKind::LeftBrace)) missing(TokenKind::LeftBrace, "after '" + std::string(textOf(header)) + "'");
+    if (!is(TokenKind::LeftBrace)) missing(TokenKind::LeftBrace, "after", textOf(header));
     open_.push_back({level, header});
     if (is(TokenKind::LeftBrace)) advance();
     if (!lexer_.comments().empty()) {
@@ -526,7 +537,7 @@ class Parser {
     }
     attribute.name = textOf(token_);
     advance();
-    if (expect(TokenKind::Assign, "after '" + attribute.name + "'")) attribute.value = expression();
+    if (expect(TokenKind::Assign, "after", attribute.name)) attribute.value = expression();
     const bool said = attribute.value.valid() && !panic_;
     endItem("value");
     attribute.where = spanFrom(begin);
@@ -848,8 +859,8 @@ class Parser {
     } while (take(TokenKind::Comma));
     if (take(TokenKind::RightParen)) return;
     const bool goesOn = isLetterStart() || is(TokenKind::Semicolon) || is(TokenKind::Arrow) || is(TokenKind::End) || is(TokenKind::RightBrace);
-    if (goesOn) missing(TokenKind::RightParen, "after the arguments of '" + module.letter + "'");
-    else expect(TokenKind::RightParen, "after the arguments of '" + module.letter + "'");
+    if (goesOn) missing(TokenKind::RightParen, "after the arguments of", module.letter);
+    else expect(TokenKind::RightParen, "after the arguments of", module.letter);
   }
   /// A comparison that is an argument is the rule's condition; one in parentheses is a value.
   void hoist(ExprId condition, Role role) {
@@ -1094,7 +1105,7 @@ class Parser {
     if (!take(TokenKind::RightParen)) {
       do call.arguments.push_back(expression());
       while (!panic_ && take(TokenKind::Comma));
-      expect(TokenKind::RightParen, "after the arguments of '" + call.function + "'");
+      expect(TokenKind::RightParen, "after the arguments of", call.function);
     }
     const int depth = depthOver(call.arguments);
     return add(std::move(call), spanFrom(begin), depth);

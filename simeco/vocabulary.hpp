@@ -16,7 +16,6 @@ enum Place : std::uint8_t { InEcosystem = 1, InPlant = 2, InOrgan = 4 };
 
 /// What an attribute's value is.
 enum class ValueKind : std::uint8_t {
-  Any,
   Number,       ///< any number
   NotNegative,  ///< a number, 0 or more
   Positive,     ///< a number above 0
@@ -24,14 +23,14 @@ enum class ValueKind : std::uint8_t {
   Vector,       ///< vector(x, y, z)
   Colour,       ///< RGBA(r, g, b, a)
   Material,     ///< MTRL(...), six numbers
-  Response,     ///< response(x1, y1, x2, y2, ...)
 };
 
 struct AttributeWord {
   std::string_view name;
   std::uint8_t places;
   ValueKind kind;
-  bool since11;  ///< not in SimEco 1.0
+  bool since11;              ///< not in SimEco 1.0
+  std::string_view warning;  ///< said to whoever uses it; may be empty
 };
 [[nodiscard]] std::span<const AttributeWord> attributeWords();
 

@@ -3,6 +3,7 @@
 //   // expect warning LINE:COLUMN: ...
 //   // expect nothing
 #include "base/files.hpp"
+#include "simeco/growth.hpp"
 #include "simeco/language.hpp"
 #include "support/shared_data.hpp"
 
@@ -244,7 +245,7 @@ std::vector<std::string> documentedExamples() {
   return examples;
 }
 
-TEST(Reference, EveryExampleParsesChecksAndPrintsAsItStands) {
+TEST(Reference, EveryExampleParsesChecksGrowsAndPrintsAsItStands) {
   const std::vector<std::string> examples = documentedExamples();
   ASSERT_GE(examples.size(), 8u);
   for (const std::string& example : examples) {
@@ -252,6 +253,8 @@ TEST(Reference, EveryExampleParsesChecksAndPrintsAsItStands) {
     EXPECT_EQ(allOf(parsed.diagnostics, example), "") << example;
     EXPECT_EQ(allOf(check(parsed.grammar), example), "") << example;
     EXPECT_EQ(print(parsed.grammar), example);
+    const auto growth = prepareGrowth(parsed.grammar);
+    EXPECT_TRUE(growth) << growth.error().message << "\n" << example;
   }
 }
 

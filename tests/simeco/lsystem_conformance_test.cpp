@@ -51,6 +51,28 @@ TEST(LSystemDerivation, EachCaseDerivesTheStringThatItAnnounces) {
   EXPECT_GE(strings, 15);
 }
 
+TEST(LSystemDerivation, EveryExampleOfTheReferenceDerivesWhatItSays) {
+  const std::string page = readFile(fs::path(AXIL_TEST_DIR) / "../../docs/lsystem.md").value();
+  const std::string open = "```lsystem\n";
+  int examples = 0;
+  for (std::size_t at = page.find(open); at != std::string::npos; at = page.find(open, at + 1)) {
+    const std::size_t begin = at + open.size();
+    const std::string text = page.substr(begin, page.find("```", begin) - begin);
+    const std::string mark = "// expect: ";
+    ASSERT_TRUE(text.starts_with(mark)) << text;
+    std::string expected = text.substr(mark.size(), text.find('\n') - mark.size());
+    std::erase(expected, ' ');
+    const Parsed parsed = parseLSystem(text);
+    ASSERT_TRUE(parsed.ok()) << text;
+    EXPECT_TRUE(checkLSystem(parsed.grammar).empty()) << text;
+    const auto derived = deriveLSystem(parsed.grammar);
+    ASSERT_TRUE(derived) << derived.error().message;
+    EXPECT_EQ(toLSystemText(derived->string), expected) << text;
+    ++examples;
+  }
+  EXPECT_GE(examples, 6);
+}
+
 /// A number in `text` from `at` on, with its end.
 struct Numeral {
   double value = 0;
