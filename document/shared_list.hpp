@@ -75,10 +75,7 @@ class SharedList {
   [[nodiscard]] const_iterator begin() const { return {this, 0}; }
   [[nodiscard]] const_iterator end() const { return {this, size()}; }
 
-  void push_back(T element) {
-    if (size() % kPage == 0) ownPages().push_back(std::make_shared<Page>());
-    ownPage(pages_->size() - 1).push_back(std::make_shared<const T>(std::move(element)));
-  }
+  void push_back(T element) { pushShared(std::make_shared<const T>(std::move(element))); }
   void set(std::size_t i, T element) { ownPage(i / kPage)[i % kPage] = std::make_shared<const T>(std::move(element)); }
   void erase(std::size_t i) {
     for (std::size_t p = i / kPage; p < pages_->size(); ++p) {
@@ -88,6 +85,15 @@ class SharedList {
     }
     if (pages_->back()->empty()) ownPages().pop_back();
     if (pages_->empty()) pages_.reset();
+  }
+  /// Leaves out every element that `is`; those that stay are shared, not copied.
+  template <class Is>
+  void eraseIf(Is is) {
+    if (std::none_of(begin(), end(), is)) return;
+    SharedList kept;
+    for (std::size_t i = 0; i < size(); ++i)
+      if (!is((*this)[i])) kept.pushShared((*(*pages_)[i / kPage])[i % kPage]);
+    *this = std::move(kept);
   }
 
   /// Whether both are the very same storage: equal without a look at the elements.
@@ -106,6 +112,10 @@ class SharedList {
   using Page = std::vector<std::shared_ptr<const T>>;  // never empty inside pages_, full in all but the last
   using Pages = std::vector<std::shared_ptr<Page>>;
 
+  void pushShared(std::shared_ptr<const T> element) {
+    if (size() % kPage == 0) ownPages().push_back(std::make_shared<Page>());
+    ownPage(pages_->size() - 1).push_back(std::move(element));
+  }
   static bool equalPages(const Page& a, const Page& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) { return x == y || *x == *y; });
   }
