@@ -100,7 +100,7 @@ TEST(EstimateCameras, AFewWrongClicksAreNamedAndDoNoHarm) {
     for (std::size_t i = 0; i < plant.nodes.size(); ++i)
       for (const auto& [view, click] : plant.nodes[i].clicks) {
         const bool isWrong = glm::length(click.px - clean.nodes[i].clicks.at(view).px) > 15;
-        const bool isNamed = std::any_of(cameras->suspects.begin(), cameras->suspects.end(), [&](const SuspectClick& s) { return s.node == plant.nodes[i].id && s.view == view; });
+        const bool isNamed = std::any_of(cameras->suspects.begin(), cameras->suspects.end(), [&, name = view](const SuspectClick& s) { return s.node == plant.nodes[i].id && s.view == name; });
         clicks += 1;
         wrong += isWrong;
         named += isWrong && isNamed;
