@@ -89,13 +89,16 @@ Result<void> writePictures(Output& output, const render::PlantMesh& plant, const
 Result<void> writeGrowth(Output& output, const Growth& growth, const skeleton3d::Camera& camera, const BuildOptions& options) {
   constexpr int kVideoFrames = 96;
   const auto at = [&growth](double time) { return simeco::plantAt(growth, time); };
-  render::AnimationOptions animation{.to = simeco::completeTime(growth), .frames = options.frames};
+  // The first picture shows something already: nothing has grown at time 0.
+  const double end = simeco::completeTime(growth);
+  render::AnimationOptions animation{.from = end / options.frames, .to = end, .frames = options.frames};
   animation.picture = {.width_px = options.width, .height_px = options.height, .view = camera};
   const fs::path folder = output.staging.path();
   if (auto written = render::writeAnimation(folder / "growth", at, animation, options.chain.watch); !written) return written;
   for (const auto& entry : fs::directory_iterator(folder / "growth")) output.files.push_back("growth/" + entry.path().filename().string());
   std::sort(output.files.end() - options.frames, output.files.end());
   if (options.video == Video::None) return {};
+  animation.from = 0;
   animation.frames = kVideoFrames;
   output.files.emplace_back("growth.mp4");
   return render::writeAnimation(folder / "growth.mp4", at, animation, options.chain.watch);

@@ -6,6 +6,7 @@
 /// The clicks are the projected nodes, rounded to a tenth of a pixel; the cameras are perspective and known. A stem organ
 /// that carries nothing but one leaf is taken for its stalk.
 
+#include "base/files.hpp"
 #include "document/chain.hpp"
 #include "render/render.hpp"
 #include "simeco/simeco.hpp"
@@ -40,11 +41,31 @@ struct LeafOrgan {
   NodeId node;
 };
 
+/// What a person would have clicked, node and stem ids from 1 in the order of their lists.
 struct Clicked {
-  Project project;
-  std::vector<PlantPoint> nodes;  ///< by id - 1
-  std::vector<LeafOrgan> leaves;
+  std::vector<document::ProjectView> views;
+  std::vector<document::ProjectNode> nodes;
+  std::vector<document::ProjectStem> stems;
+  std::vector<document::ProjectLeaves> leaves;
+  std::vector<PlantPoint> places;  ///< of the nodes
+  std::vector<LeafOrgan> organs;   ///< of the leaves
 };
+
+template <class T>
+document::SharedList<T> shared(const std::vector<T>& elements) {
+  document::SharedList<T> list;
+  for (const T& element : elements) list.push_back(element);
+  return list;
+}
+
+Project projectOf(const Clicked& clicked) {
+  Project project;
+  project.views = shared(clicked.views);
+  project.nodes = shared(clicked.nodes);
+  project.stems = shared(clicked.stems);
+  project.leaves = shared(clicked.leaves);
+  return project;
+}
 
 /// Stem organs that carry exactly one leaf and nothing else.
 std::vector<bool> stalksOf(const Plant& plant) {
@@ -62,9 +83,9 @@ std::vector<bool> stalksOf(const Plant& plant) {
 }
 
 NodeId addNode(Clicked& clicked, PlantPoint at, double radius) {
-  clicked.nodes.push_back(at);
-  const NodeId id(static_cast<std::int32_t>(clicked.nodes.size()));
-  clicked.project.nodes.push_back({{id, {}, std::round(radius * 1e5) / 1e5}, {}});
+  clicked.places.push_back(at);
+  const NodeId id(static_cast<std::int32_t>(clicked.places.size()));
+  clicked.nodes.push_back({{id, {}, std::round(radius * 1e5) / 1e5}, {}});
   return id;
 }
 
@@ -80,15 +101,15 @@ Clicked click(const Plant& plant) {
     tipNode[i] = from;
     stemOf[i] = parentStem;
     if (organ.kind == OrganKind::Leaf)
-      clicked.leaves.push_back({OrganId(static_cast<std::int32_t>(i)), organ.parent && stalks[static_cast<std::size_t>(organ.parent->value)] ? plant.at(*organ.parent).length : 0,
+      clicked.organs.push_back({OrganId(static_cast<std::int32_t>(i)), organ.parent && stalks[static_cast<std::size_t>(organ.parent->value)] ? plant.at(*organ.parent).length : 0,
                                 parentStem, from});
     if (organ.kind != OrganKind::Stem || stalks[i] || organ.length < kNegligible) continue;
     if (organ.branch || !parentStem.valid()) {
-      stemOf[i] = StemId(static_cast<std::int32_t>(clicked.project.stems.size()) + 1);
-      clicked.project.stems.push_back({{stemOf[i], {from}}, {}});
+      stemOf[i] = StemId(static_cast<std::int32_t>(clicked.stems.size()) + 1);
+      clicked.stems.push_back({{stemOf[i], {from}}, {}});
     }
     tipNode[i] = addNode(clicked, organ.tip(), organ.radius);
-    clicked.project.stems[static_cast<std::size_t>(stemOf[i].value - 1)].stem.nodes.push_back(tipNode[i]);
+    clicked.stems[static_cast<std::size_t>(stemOf[i].value - 1)].stem.nodes.push_back(tipNode[i]);
   }
   return clicked;
 }
@@ -98,47 +119,46 @@ double tenth(double px) { return std::round(px * 10) / 10; }
 void addView(Clicked& clicked, const std::string& name, const skeleton3d::Camera& camera) {
   document::ProjectView view;
   view.view = {name, camera, kSize};
-  view.photo = name + ".jpg";
   view.origin_px = skeleton3d::project(camera, PlantPoint{});
   view.origin_px->px = {tenth(view.origin_px->px.x), tenth(view.origin_px->px.y)};
-  clicked.project.views.push_back(view);
+  clicked.views.push_back(view);
   for (std::size_t i = 0; i < clicked.nodes.size(); ++i) {
-    const PhotoPoint p = skeleton3d::project(camera, clicked.nodes[i]);
-    clicked.project.nodes[i].node.clicks[name] = {{tenth(p.px.x), tenth(p.px.y)}};
+    const PhotoPoint p = skeleton3d::project(camera, clicked.places[i]);
+    clicked.nodes[i].node.clicks[name] = {{tenth(p.px.x), tenth(p.px.y)}};
   }
 }
 
 /// One entry a leaf: first with rough angles, then corrected by how the placed leaf differs from the grown one.
 void addLeaves(Clicked& clicked, const Plant& plant, const document::ChainOptions& options) {
-  for (const LeafOrgan& organ : clicked.leaves) {
+  for (const LeafOrgan& organ : clicked.organs) {
     quantify::LeafArrangement a;
     a.stem = organ.stem;
     a.arrangement = "alternate";
     a.at = {organ.node};
     a.angle = 60_deg;
     a.azimuth = a.roll = 0_deg;
-    a.length = plant.at(organ.leaf).length;
-    a.petiole = organ.petiole;
+    a.length = std::round(plant.at(organ.leaf).length * 1e6) / 1e6;
+    a.petiole = std::round(organ.petiole * 1e6) / 1e6;
     a.shape = "ovate";
-    clicked.project.leaves.push_back({a, {}});
+    clicked.leaves.push_back({a, {}});
   }
   const auto correct = [&](auto&& change) {
-    const auto skeleton = document::skeletonOf({clicked.project, {}}, options);
+    const auto skeleton = document::skeletonOf({projectOf(clicked), {}}, options);
     AXIL_ASSERT(skeleton.has_value(), skeleton.error().message.c_str());
     for (std::size_t i = 0; i < clicked.leaves.size(); ++i)
-      change(clicked.project.leaves[i].arrangement, skeleton->leaves[i], plant.at(clicked.leaves[i].leaf), *skeleton);
+      change(clicked.leaves[i].arrangement, skeleton->leaves[i], plant.at(clicked.organs[i].leaf));
   };
   const auto rounded = [](Angle angle) { return Angle::fromDegrees(std::round(angle.degrees() * 100) / 100); };
   // The stem's direction at the leaf follows from the placed leaf: it stands 60 degrees from it, on its adaxial side.
   const auto axisOf = [](const skeleton3d::Leaf& leaf, Angle angle) {
     return turned(leaf.direction, PlantDirection::along(glm::cross(leaf.direction.unit(), leaf.normal.unit())), angle);
   };
-  correct([&](quantify::LeafArrangement& a, const skeleton3d::Leaf& placed, const Organ& grown, const skeleton3d::Skeleton&) {
+  correct([&](quantify::LeafArrangement& a, const skeleton3d::Leaf& placed, const Organ& grown) {
     const PlantDirection axis = axisOf(placed, *a.angle);
     a.azimuth = rounded(*a.azimuth + signedAngleAbout(axis, placed.direction, grown.direction));
     a.angle = rounded(angleBetween(axis, grown.direction));
   });
-  correct([&](quantify::LeafArrangement& a, const skeleton3d::Leaf& placed, const Organ& grown, const skeleton3d::Skeleton&) {
+  correct([&](quantify::LeafArrangement& a, const skeleton3d::Leaf& placed, const Organ& grown) {
     a.roll = rounded(*a.roll + signedAngleAbout(placed.direction, placed.normal, grown.adaxial));
   });
 }
@@ -163,8 +183,6 @@ Result<void> makeSample(const std::filesystem::path& grammarFile, const std::str
   if (!mesh) return mesh.failure();
 
   Clicked clicked = click(*plant);
-  clicked.project.name = folder.filename().string();
-  clicked.project.description = description;
   const render::Bounds bounds = render::boundsOf(*mesh);
   const double distance = 1.9 * std::max({bounds.size().x, bounds.size().y, bounds.size().z});
   for (const char* name : {"front", "right", "top"}) {
@@ -175,11 +193,13 @@ Result<void> makeSample(const std::filesystem::path& grammarFile, const std::str
     if (auto written = writeJpeg(folder / (std::string(name) + ".jpg"), *image); !written) return written;
     addView(clicked, name, *camera);
   }
-  // While the leaves are fitted the photos are not needed; they are named at the end.
-  for (auto& view : clicked.project.views) view.photo.clear();
   addLeaves(clicked, *plant, {});
-  for (auto& view : clicked.project.views) view.photo = view.view.name + ".jpg";
-  return document::saveProject(clicked.project, folder / (clicked.project.name + ".axil"));
+  // The leaves are fitted without looking at the photos; they are named only now.
+  for (auto& view : clicked.views) view.photo = view.view.name + ".jpg";
+  Project project = projectOf(clicked);
+  project.name = folder.filename().string();
+  project.description = description;
+  return document::saveProject(project, folder / (project.name + ".axil"));
 }
 
 }  // namespace
