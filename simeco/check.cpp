@@ -22,6 +22,8 @@ template <class... Ts>
 struct overloaded : Ts... {
   using Ts::operator()...;
 };
+template <class... Ts>
+overloaded(Ts...) -> overloaded<Ts...>;
 
 // More general rules of one letter than these are not compared with every module: the work must stay linear in the text.
 constexpr std::size_t kMostGeneralRules = 64;

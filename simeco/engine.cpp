@@ -11,6 +11,7 @@ namespace {
 /// Bytes of everything a step holds at once.
 std::size_t held(const Engine::State& s) {
   std::size_t bytes = s.string.bytes() + s.spare.codes.bytes() + s.spare.parameters.bytes() + s.around.bytes() + s.rightCodes.bytes();
+  if (s.calm) bytes += s.calm->bytes();
   for (const Lane& lane : s.lanes) bytes += lane.own.codes.bytes() + lane.own.parameters.bytes();
   return bytes;
 }
@@ -67,6 +68,7 @@ Failure Engine::State::failure(const Error& error, const CompiledRule* rule) con
 Failure Engine::State::tooMany(const char* what, std::size_t limit, const CompiledRule* rule) const {
   std::string message = "the derivation would need more than " + std::to_string(limit) + " " + what + " " + stepText(steps);
   const auto most = std::max_element(fired.begin(), fired.end());
+  if (rule == nullptr) rule = lastRule;
   if (most != fired.end() && *most > 0) rule = &program->main().productions.rules[static_cast<std::size_t>(most - fired.begin())];
   if (rule != nullptr) message += "; the rule that was growing it is " + rule->name;
   return fail(ErrorCode::LimitReached, message + "; derive fewer steps or raise the limit");
@@ -134,7 +136,8 @@ Result<std::shared_ptr<Engine>> Engine::create(std::shared_ptr<const Program> pr
   describeRules(s);
   s.plain = isPlain(s);
   if (s.plain) {
-    s.plans = std::make_unique<Plans>(planFor(*s.program));
+    s.plans = planFor(*s.program);
+    s.calm = std::make_unique<Calm>(*s.program, *s.plans);
     s.workers = std::make_unique<Workers>(s.options.threads);
     s.lanes.resize(s.machines.size());
   }
@@ -144,6 +147,8 @@ Result<std::shared_ptr<Engine>> Engine::create(std::shared_ptr<const Program> pr
 Result<void> Engine::start() {
   State& s = *state_;
   s.string = ModuleString(s.program->symbols);
+  s.string.parameterBuffer().reserve(1);  // so that there always is a place to read from
+  s.spare.parameters.reserve(1);
   s.steps = 0;
   s.main = {};
   s.visits.clear();
@@ -182,16 +187,19 @@ Result<Engine::Outcome> Engine::step(StepTrace* trace) {
   const System& main = s.program->main();
   if (auto done = s.runHeader(main.startEach, s.main, 2); !done) return done.failure();
   std::fill(s.fired.begin(), s.fired.end(), 0);
+  s.inPlace = false;
   s.spare.codes.clear();
   s.spare.parameters.clear();
   const auto fired = s.plain && trace == nullptr ? s.plainStep() : s.generalStep(trace);
   if (!fired) return fired.failure();
   s.notePeak(0);
   if (held(s) > s.options.limits.bytes) return s.tooMany("bytes", s.options.limits.bytes, nullptr);
-  const bool still = s.timeless && !s.drawsConditions && (*fired == 0 || (!s.drawsResults && sameArrays(s.string, s.spare)));
+  const bool still = s.timeless && !s.drawsConditions && (*fired == 0 || (!s.inPlace && !s.drawsResults && sameArrays(s.string, s.spare)));
   if (still) return Outcome::Settled;
-  s.string.codeBuffer().swap(s.spare.codes);
-  s.string.parameterBuffer().swap(s.spare.parameters);
+  if (!s.inPlace) {
+    s.string.codeBuffer().swap(s.spare.codes);
+    s.string.parameterBuffer().swap(s.spare.parameters);
+  }
   if (auto done = s.runHeader(main.endEach, s.main, 3); !done) return done.failure();
   Machine& m = s.machine();
   if (m.newSeed) s.random = Rng(*m.newSeed);
@@ -206,6 +214,7 @@ Result<Engine::Outcome> Engine::run(std::optional<std::int64_t> count, std::vect
   const Limits& limits = s.options.limits;
   Machine& m = s.machine();
   const auto wanted = [&] { return m.newLength ? m.newLength : count; };
+  if (count && *count <= limits.steps && s.canLeap()) return s.leap(*count, modulesPerStep);
   while (!s.stopped && (!wanted() || s.steps < *wanted())) {
     if (s.steps >= limits.steps) return tooManySteps();
     const auto outcome = step();

@@ -20,8 +20,8 @@ namespace axil::simeco {
 /// Whether the result would be a division by zero, which no language of ours defines.
 [[nodiscard]] inline bool dividesByZero(Op op, double b) { return (op == Op::Divide && b == 0) || (op == Op::Remainder && truncated(b) == 0); }
 
-/// Both sides truncated, the sign of the left (-7 % 3 is -1). `b` must not be 0 when truncated.
-[[nodiscard]] inline double remainder(double a, double b) { return std::fmod(truncated(a), truncated(b)); }
+/// Both sides truncated, the sign of the left (-7 % 3 is -1, but -6 % 3 is 0 as of whole numbers, never -0). `b` must not be 0 when truncated.
+[[nodiscard]] inline double remainder(double a, double b) { return std::fmod(truncated(a), truncated(b)) + 0.0; }
 
 [[nodiscard]] inline bool compared(Op op, double a, double b) {
   switch (op) {

@@ -33,55 +33,57 @@ class Pass {
   }
 
   /// One derivation step into `out`.
-  Result<std::size_t> derive(Arrays& out) {
+  bool derive(Arrays& out) {
     out_ = &out;
     enter(nullptr);
     for (std::size_t at = 0; at < old_.codes.size();) {
-      if (auto go = lookUp(at); !go) return go.failure();
+      if (!lookUp(at)) return false;
       const SymbolCode code = old_.codes[at];
       if (code == program_.enter) {
-        if (auto done = enterVisit(at); !done) return done.failure();
+        if (!enterVisit(at)) return false;
         continue;
       }
       if (code == program_.leave && !open_.empty()) {
-        if (auto done = leaveVisit(at); !done) return done.failure();
+        if (!leaveVisit(at)) return false;
         continue;
       }
       if (code == program_.cut && system_->productions.bySymbol[code].all.empty()) {
         cutAt(at);
         continue;
       }
-      if (auto done = rewrite(at); !done) return done.failure();
+      if (!rewrite(at)) return false;
     }
     if (trace_ != nullptr) trace_->begin.push_back(static_cast<std::uint32_t>(out_->codes.size()));
-    return fired_;
+    return true;
   }
 
   /// The homomorphism of the whole string into `out`, with the source of each module.
-  Result<void> draw(Arrays& out, std::vector<std::uint32_t>& source) {
+  bool draw(Arrays& out, std::vector<std::uint32_t>& source) {
     out_ = &out;
     source_ = &source;
     enter(nullptr);
     for (std::size_t at = 0; at < old_.codes.size();) {
-      if (auto go = lookUp(at); !go) return go.failure();
+      if (!lookUp(at)) return false;
       if (old_.codes[at] == program_.enter) enter(&openVisit());
       if (old_.codes[at] == program_.leave && !open_.empty()) closeVisit();
-      if (auto done = drawModule(at); !done) return done.failure();
+      if (!drawModule(at)) return false;
     }
-    return {};
+    return true;
   }
 
   [[nodiscard]] std::vector<Instance> takeVisits() { return std::move(newVisits_); }
   [[nodiscard]] bool depthReached() const { return depthReached_; }
+  [[nodiscard]] std::size_t fired() const { return fired_; }
+  [[nodiscard]] Failure failure() const { return fail(*error_); }
 
  private:
   // ---- where we are ------------------------------------------------------------------------------------------------
 
   /// From time to time: whether to go on at all.
-  Result<void> lookUp(std::size_t) {
+  bool lookUp(std::size_t) {
     constexpr std::size_t betweenLooks = 1 << 14;
-    if (++looks_ % betweenLooks != 0) return {};
-    return s_.mayGoOn();
+    if (++looks_ % betweenLooks != 0) return true;
+    return passOn(s_.mayGoOn());
   }
 
   void enter(Instance* instance) {
@@ -119,25 +121,25 @@ class Pass {
           if (theirs.globals[from] == external && mine.globals[to] == external) visit.globals[to] = caller.globals[from];
   }
   /// A `?` that stays: its instance goes over to the new string.
-  Result<void> enterVisit(std::size_t& at) {
+  bool enterVisit(std::size_t& at) {
     const Instance& caller = open_.empty() ? s_.main : *open_.back();
     Instance& visit = openVisit();
     newVisits_.push_back({});
     moves_.emplace_back(newVisits_.size() - 1, &visit);
     copyModule(at);
     if (!visit.started)
-      if (auto done = s_.startInstance(visit); !done) return done;
+      if (!passOn(s_.startInstance(visit))) return false;
     takeExternals(visit, caller);
-    if (auto done = s_.runHeader(program_.systems[visit.system].startEach, visit, nextVisit_); !done) return done;
+    if (!passOn(s_.runHeader(program_.systems[visit.system].startEach, visit, nextVisit_))) return false;
     enter(&visit);
-    return {};
+    return true;
   }
-  Result<void> leaveVisit(std::size_t& at) {
+  bool leaveVisit(std::size_t& at) {
     copyModule(at);
     Instance& visit = *open_.back();
-    if (auto done = s_.runHeader(program_.systems[visit.system].endEach, visit, ~std::uint64_t{nextVisit_}); !done) return done;
+    if (!passOn(s_.runHeader(program_.systems[visit.system].endEach, visit, ~std::uint64_t{nextVisit_}))) return false;
     closeVisit();
-    return {};
+    return true;
   }
 
  public:
@@ -188,7 +190,13 @@ class Pass {
     advance(at, end - at);
   }
 
-  [[nodiscard]] Failure inTrouble(const CompiledRule& rule) const { return s_.failure(*machine_.trouble(), &rule); }
+  bool inTrouble(const CompiledRule& rule) { return stop(s_.failure(*machine_.trouble(), &rule)); }
+  /// Notes why the pass ends early.
+  bool stop(Failure failure) {
+    if (!error_) error_ = std::move(failure.error);
+    return false;
+  }
+  bool passOn(const Result<void>& done) { return done || stop(done.failure()); }
 
   /// Whether the modules from `at` on are the rule's predecessor; binds their parameters.
   [[nodiscard]] bool predecessorAt(const CompiledRule& rule, std::span<const SymbolCode> codes, const double* parameters, double* locals) const {
@@ -211,25 +219,25 @@ class Pass {
     return !rule.hasCondition || machine_.value(rule.condition, locals) != 0;
   }
 
-  Result<void> rewrite(std::size_t& at) {
+  bool rewrite(std::size_t& at) {
     const RuleIndex& index = system_->productions.bySymbol[old_.codes[at]];
     if (index.all.empty()) return keep(at);
     if (system_->stochastic || s_.drawsConditions) machine_.setRandom(s_.stream(Stream::Choice, static_cast<std::uint64_t>(s_.steps), at));
     return system_->stochastic ? rewriteByWeight(index, at) : rewriteByFirst(index, at);
   }
 
-  Result<void> keep(std::size_t& at) {
+  bool keep(std::size_t& at) {
     if (system_->decomposition.empty()) {
       copyModule(at);
-      return {};
+      return true;
     }
     const std::size_t first = out_->codes.size();
     machine_.setRandom(s_.stream(Stream::Successor, static_cast<std::uint64_t>(s_.steps), at));
     pushList({&old_.codes[at], 1}, {old_.parameters.data() + parameter_, program_.parameterCount[old_.codes[at]]}, 0);
-    if (auto done = emptyLists(system_->decomposition, at, at); !done) return done;
+    if (!emptyLists(system_->decomposition, at, at)) return false;
     traced(1, StepTrace::copied, first);
     advance(at, 1);
-    return {};
+    return true;
   }
 
   [[nodiscard]] bool applies(const CompiledRule& rule, std::size_t at, double* locals) {
@@ -237,7 +245,7 @@ class Pass {
            matcher_->contexts(rule, at, at + rule.predecessor.size() - 1, locals) && conditionHolds(rule, locals);
   }
 
-  Result<void> rewriteByFirst(const RuleIndex& index, std::size_t& at) {
+  bool rewriteByFirst(const RuleIndex& index, std::size_t& at) {
     for (const std::uint32_t number : candidates(index, old_.parameters.data() + parameter_)) {
       const CompiledRule& rule = system_->productions.rules[number];
       const bool fires = applies(rule, at, locals_.data());
@@ -248,7 +256,7 @@ class Pass {
   }
 
   /// Every applicable rule joins the set, with the locals that its `before` left; one is drawn by weight.
-  Result<void> rewriteByWeight(const RuleIndex& index, std::size_t& at) {
+  bool rewriteByWeight(const RuleIndex& index, std::size_t& at) {
     applicable_.clear();
     std::size_t used = 0;
     double sum = 0;
@@ -273,14 +281,17 @@ class Pass {
   }
 
   /// Which of a rule's successors: by weight, where there is a choice.
-  Result<const CompiledSuccessor*> choose(const CompiledRule& rule, double* locals) {
+  const CompiledSuccessor* choose(const CompiledRule& rule, double* locals) {
     if (rule.successors.size() == 1) return &rule.successors.front();
     double sum = 0;
     weights_.clear();
     for (const CompiledSuccessor& successor : rule.successors) {
       weights_.push_back(machine_.value(successor.weight, locals));
       if (!machine_.trouble() && !(weights_.back() >= 0)) machine_.giveUp(ErrorCode::NoAnswer, "a probability that is negative or no number");
-      if (machine_.trouble()) return inTrouble(rule);
+      if (machine_.trouble()) {
+        inTrouble(rule);
+        return nullptr;
+      }
       sum += weights_.back();
     }
     double left = sum * machine_.rng().uniform();
@@ -289,26 +300,26 @@ class Pass {
     return &rule.successors[chosen];
   }
 
-  Result<void> fire(const CompiledRule& rule, std::size_t& at, double* locals) {
+  bool fire(const CompiledRule& rule, std::size_t& at, double* locals) {
     ++fired_;
     if (rule.random) machine_.setRandom(s_.stream(Stream::Successor, static_cast<std::uint64_t>(s_.steps), at));
     if (!rule.after.empty()) machine_.run(rule.after, locals);
     if (machine_.trouble()) return inTrouble(rule);
-    const auto successor = choose(rule, locals);
-    if (!successor) return successor.failure();
+    const CompiledSuccessor* successor = choose(rule, locals);
+    if (successor == nullptr) return false;
     const std::size_t first = out_->codes.size();
     const std::size_t consumed = rule.predecessor.size();
     if (system_->decomposition.empty()) {
-      if (auto done = write(rule, **successor, locals, *out_); !done) return done;
+      if (!write(rule, *successor, locals, *out_)) return false;
       noteVisits(first);
     } else {
-      if (auto done = pushSuccessor(rule, **successor, locals, 0); !done) return done;
-      if (auto done = emptyLists(system_->decomposition, at, at + consumed - 1); !done) return done;
+      if (!pushSuccessor(rule, *successor, locals, 0)) return false;
+      if (!emptyLists(system_->decomposition, at, at + consumed - 1)) return false;
     }
     s_.fired[rule.number] += out_->codes.size() - first;
     traced(consumed, static_cast<std::int32_t>(rule.number), first);
     advance(at, consumed);
-    return {};
+    return true;
   }
 
   // ---- writing -----------------------------------------------------------------------------------------------------
@@ -316,9 +327,9 @@ class Pass {
   [[nodiscard]] double stored(double value) const { return s_.options.singlePrecision ? static_cast<double>(static_cast<float>(value)) : value; }
 
   /// Appends a successor with its parameters computed.
-  Result<void> write(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, Arrays& to) {
+  bool write(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, Arrays& to) {
     const std::size_t codes = to.codes.size(), parameters = to.parameters.size();
-    if (codes + successor.codes.size() > s_.options.limits.modules) return s_.tooMany("modules", s_.options.limits.modules, &rule);
+    if (codes + successor.codes.size() > s_.options.limits.modules) return stop(s_.tooMany("modules", s_.options.limits.modules, &rule));
     to.codes.reserveMore(codes + successor.codes.size());
     to.parameters.reserveMore(parameters + successor.terms.size());
     for (std::size_t i = 0; i < successor.codes.size(); ++i) to.codes[codes + i] = successor.codes[i];
@@ -326,10 +337,10 @@ class Pass {
     if (machine_.trouble()) return inTrouble(rule);
     if (program_.language == Language::SimEco && !successor.constant)
       for (std::size_t i = 0; i < successor.terms.size(); ++i)
-        if (!std::isfinite(to.parameters[parameters + i])) return s_.failure({ErrorCode::NoAnswer, "a parameter that is not a finite number"}, &rule);
+        if (!std::isfinite(to.parameters[parameters + i])) return stop(s_.failure({ErrorCode::NoAnswer, "a parameter that is not a finite number"}, &rule));
     to.codes.setSize(codes + successor.codes.size());
     to.parameters.setSize(parameters + successor.terms.size());
-    return {};
+    return true;
   }
   void noteVisits(std::size_t first) {
     if (program_.enter < 0) return;
@@ -353,16 +364,16 @@ class Pass {
     for (const double parameter : parameters) lists_.parameters.push(parameter);
     cursors_.push_back(cursor);
   }
-  Result<void> pushSuccessor(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, int depth) {
+  bool pushSuccessor(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, int depth) {
     const std::size_t codes = lists_.codes.size(), parameters = lists_.parameters.size();
-    if (auto done = write(rule, successor, locals, lists_); !done) return done;
+    if (!write(rule, successor, locals, lists_)) return false;
     cursors_.push_back({codes, lists_.codes.size(), parameters, codes, parameters, depth});
-    return {};
+    return true;
   }
 
   /// Looks up every module of the lists, the innermost list first, until nothing is left; [first, last] are the modules of the
   /// old string whose contexts count.
-  Result<void> emptyLists(const RuleTable& table, std::size_t first, std::size_t last) {
+  bool emptyLists(const RuleTable& table, std::size_t first, std::size_t last) {
     while (!cursors_.empty()) {
       Cursor& cursor = cursors_.back();
       if (cursor.at == cursor.end) {
@@ -371,12 +382,12 @@ class Pass {
         cursors_.pop_back();
         continue;
       }
-      if (auto go = lookUp(first); !go) return go;
-      if (auto done = lookUpModule(table, first, last); !done) return done;
+      if (!lookUp(first)) return false;
+      if (!lookUpModule(table, first, last)) return false;
     }
-    return {};
+    return true;
   }
-  Result<void> lookUpModule(const RuleTable& table, std::size_t first, std::size_t last) {
+  bool lookUpModule(const RuleTable& table, std::size_t first, std::size_t last) {
     Cursor& cursor = cursors_.back();
     const SymbolCode code = lists_.codes[cursor.at];
     const RuleIndex& index = table.bySymbol[code];
@@ -398,30 +409,30 @@ class Pass {
     depthReached_ = depthReached_ || (table.warn && (!rule.before.empty() || conditionHolds(rule, locals_.data())));
     return false;
   }
-  Result<void> expand(const CompiledRule& rule) {
+  bool expand(const CompiledRule& rule) {
     Cursor& cursor = cursors_.back();
     const int depth = cursor.depth + 1;
     for (std::size_t i = 0; i < rule.predecessor.size(); ++i) cursor.parameter += program_.parameterCount[lists_.codes[cursor.at++]];
     if (!rule.after.empty()) machine_.run(rule.after, locals_.data());
     if (machine_.trouble()) return inTrouble(rule);
     ++fired_;
-    const auto successor = choose(rule, locals_.data());
-    if (!successor) return successor.failure();
-    return pushSuccessor(rule, **successor, locals_.data(), depth);
+    const CompiledSuccessor* successor = choose(rule, locals_.data());
+    if (successor == nullptr) return false;
+    return pushSuccessor(rule, *successor, locals_.data(), depth);
   }
-  Result<void> putListed(SymbolCode code) {
+  bool putListed(SymbolCode code) {
     Cursor& cursor = cursors_.back();
-    if (out_->codes.size() >= s_.options.limits.modules) return s_.tooMany("modules", s_.options.limits.modules, nullptr);
+    if (out_->codes.size() >= s_.options.limits.modules) return stop(s_.tooMany("modules", s_.options.limits.modules, nullptr));
     put(code, lists_.parameters.data() + cursor.parameter);
     if (source_ != nullptr) source_->push_back(sourceNow_);
     if (source_ == nullptr && code == program_.enter) newVisits_.emplace_back().system = unknownSystem;
     cursor.parameter += program_.parameterCount[code];
     ++cursor.at;
-    return {};
+    return true;
   }
 
   /// At depth 0 a homomorphism rule may take several modules of the string itself.
-  Result<void> drawModule(std::size_t& at) {
+  bool drawModule(std::size_t& at) {
     const RuleTable& table = system_->homomorphism;
     sourceNow_ = static_cast<std::uint32_t>(at);
     if (table.empty()) return drawAsItIs(at);
@@ -435,42 +446,42 @@ class Pass {
         if (!fires) continue;
         if (!rule.after.empty()) machine_.run(rule.after, locals_.data());
         if (machine_.trouble()) return inTrouble(rule);
-        const auto successor = choose(rule, locals_.data());
-        if (!successor) return successor.failure();
-        if (auto done = pushSuccessor(rule, **successor, locals_.data(), 1); !done) return done;
+        const CompiledSuccessor* successor = choose(rule, locals_.data());
+        if (successor == nullptr) return false;
+        if (!pushSuccessor(rule, *successor, locals_.data(), 1)) return false;
         const std::size_t consumed = rule.predecessor.size();
-        if (auto done = emptyLists(table, at, at + consumed - 1); !done) return done;
+        if (!emptyLists(table, at, at + consumed - 1)) return false;
         advance(at, consumed);
-        return {};
+        return true;
       }
     }
     return drawAsItIs(at);
   }
-  Result<void> drawAsItIs(std::size_t& at) {
-    if (out_->codes.size() >= s_.options.limits.modules) return s_.tooMany("modules", s_.options.limits.modules, nullptr);
+  bool drawAsItIs(std::size_t& at) {
+    if (out_->codes.size() >= s_.options.limits.modules) return stop(s_.tooMany("modules", s_.options.limits.modules, nullptr));
     put(old_.codes[at], old_.parameters.data() + parameter_);
     source_->push_back(sourceNow_);
     advance(at, 1);
-    return {};
+    return true;
   }
 
  public:
   /// A `?` that a rule has just made: which L-system it enters is read from its parameter when the step is over.
   static constexpr std::size_t unknownSystem = static_cast<std::size_t>(-1);
-  Result<void> nameVisits(std::span<const SymbolCode> codes, std::span<const double> parameters) {
-    if (program_.enter < 0) return {};
+  bool nameVisits(std::span<const SymbolCode> codes, std::span<const double> parameters) {
+    if (program_.enter < 0) return true;
     std::size_t parameter = 0, visit = 0;
     for (const SymbolCode code : codes) {
       if (code == program_.enter) {
         if (visit == newVisits_.size()) newVisits_.emplace_back().system = unknownSystem;
         Instance& instance = newVisits_[visit++];
         const auto system = systemCalled(parameters[parameter]);
-        if (!system) return s_.failure({ErrorCode::BadGrammar, "?(id, scale) names an L-system that the file does not have"}, nullptr);
+        if (!system) return stop(s_.failure({ErrorCode::BadGrammar, "?(id, scale) names an L-system that the file does not have"}, nullptr));
         if (instance.system == unknownSystem) instance.system = *system;
       }
       parameter += program_.parameterCount[code];
     }
-    return {};
+    return true;
   }
 
  private:
@@ -499,6 +510,7 @@ class Pass {
   Arrays lists_;
   std::vector<Cursor> cursors_;
   bool depthReached_ = false;
+  std::optional<Error> error_;
   std::size_t nextVisit_ = 0;
   std::vector<Instance*> open_;
   std::vector<Instance> newVisits_;
@@ -511,18 +523,17 @@ Result<std::size_t> Engine::State::generalStep(StepTrace* trace) {
   if (trace != nullptr) *trace = {};
   around.read(*program, program->main().ignored, needs, string.codes());
   Pass pass(*this, trace);
-  const auto count = pass.derive(spare);
-  if (!count) return count.failure();
-  if (auto named = pass.nameVisits(spare.codes.span(), spare.parameters.span()); !named) return named.failure();
+  if (!pass.derive(spare)) return pass.failure();
+  if (!pass.nameVisits(spare.codes.span(), spare.parameters.span())) return pass.failure();
   pass.moveVisits();
   visits = pass.takeVisits();
   if (pass.depthReached()) note("the maximum depth of the decomposition kept rules from being applied");
-  return *count;
+  return pass.fired();
 }
 
 Result<void> Engine::State::findVisits() {
   Pass pass(*this, nullptr);
-  if (auto named = pass.nameVisits(string.codes(), string.parameters()); !named) return named;
+  if (!pass.nameVisits(string.codes(), string.parameters())) return pass.failure();
   visits = pass.takeVisits();
   return {};
 }
@@ -534,11 +545,11 @@ Result<Image> Engine::State::makeImage() {
   const Instance mainBefore = main;
   const std::vector<Instance> visitsBefore = visits;
   Pass pass(*this, nullptr);
-  const auto drawn = pass.draw(out, image.source);
+  const bool drawn = pass.draw(out, image.source);
   // An image is a view: what its statements do to variables is forgotten.
   main = mainBefore;
   visits = visitsBefore;
-  if (!drawn) return drawn.failure();
+  if (!drawn) return pass.failure();
   if (pass.depthReached()) note("the maximum depth of the homomorphism kept rules from being applied");
   image.string.codeBuffer() = std::move(out.codes);
   image.string.parameterBuffer() = std::move(out.parameters);

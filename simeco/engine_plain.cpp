@@ -12,19 +12,27 @@ namespace axil::simeco {
 namespace {
 
 /// Up to 32 bytes are copied without asking how many; both sides have room behind their end.
-inline void copyCodes(SymbolCode* to, const Plan& plan) {
-  if (plan.length <= 16) {
-    std::memcpy(to, plan.codes.data(), 16);
-  } else if (plan.length <= 32) {
-    std::memcpy(to, plan.codes.data(), 32);
+inline void copyCodes(SymbolCode* to, const QuickSuccessor& from) {
+  if (from.length <= 16) {
+    std::memcpy(to, from.codes.data(), 16);
+  } else if (from.length <= 32) {
+    std::memcpy(to, from.codes.data(), 32);
   } else {
-    std::memcpy(to, plan.successor->codes.data(), plan.length);
+    std::memcpy(to, from.successor->codes.data(), from.length);
   }
 }
 
 inline void copyNumbers(double* to, const double* from, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) to[i] = from[i];
 }
+
+/// Where the next module is read and written. It lives in registers: codes are bytes, and a byte that is written could be a
+/// piece of anything else that is in memory.
+struct Pen {
+  const double* in = nullptr;   ///< parameters of the module at hand
+  SymbolCode* to = nullptr;
+  double* numbers = nullptr;
+};
 
 /// Who stands to the left of a part's first module, found by walking from there, further with every bracket that closes.
 class LeftFringe {
@@ -35,7 +43,7 @@ class LeftFringe {
   SymbolCode nearest() {
     std::size_t depth = 0;
     for (std::size_t i = at_; i-- > 0;) {
-      const std::uint8_t role = plans_.roles[codes_[i]];
+      const std::uint8_t role = plans_.hot[codes_[i]].role;
       if (role == Plans::Closes) ++depth;
       if (role == Plans::Opens && depth > 0) --depth;
       if (role == Plans::Considered && depth == 0) return codes_[i];
@@ -46,7 +54,7 @@ class LeftFringe {
   void leave() {
     std::size_t depth = 0;
     while (at_ > 0) {
-      const std::uint8_t role = plans_.roles[codes_[--at_]];
+      const std::uint8_t role = plans_.hot[codes_[--at_]].role;
       if (role == Plans::Closes) ++depth;
       if (role == Plans::Opens && depth-- == 0) return;
     }
@@ -67,7 +75,7 @@ class RightFringe {
   SymbolCode nearest() const {
     std::size_t depth = 0;
     for (std::size_t i = at_; i < codes_.size(); ++i) {
-      const std::uint8_t role = plans_.roles[codes_[i]];
+      const std::uint8_t role = plans_.hot[codes_[i]].role;
       if (role == Plans::Opens) ++depth;
       if (role == Plans::Closes && depth-- == 0) break;
       if (role == Plans::Considered && depth == 0) return codes_[i];
@@ -77,7 +85,7 @@ class RightFringe {
   void leave() {
     std::size_t depth = 0;
     while (at_ < codes_.size()) {
-      const std::uint8_t role = plans_.roles[codes_[at_++]];
+      const std::uint8_t role = plans_.hot[codes_[at_++]].role;
       if (role == Plans::Opens) ++depth;
       if (role == Plans::Closes && depth-- == 0) return;
     }
@@ -109,15 +117,23 @@ class PartPass {
     lane_.fired = 0;
     lane_.out->codes.clear();
     lane_.out->parameters.clear();
+    AXIL_ASSERT(old_.parameters.data() != nullptr, "two numbers can always be read, even where there are none");
     in_ = old_.parameters.data() + parameter;
+    rule_ = nullptr;
     if (plans_.rightCodes) readRightCodes(begin, end);
-    if (plans_.leftCodes)
-      plans_.rightCodes ? blocks<true, true>(begin, end) : blocks<true, false>(begin, end);
-    else
-      plans_.rightCodes ? blocks<false, true>(begin, end) : blocks<false, false>(begin, end);
+    plans_.parameters ? withParameters<true>(begin, end) : withParameters<false>(begin, end);
+    lane_.lastRule = rule_;
   }
 
  private:
+  template <bool parameters>
+  void withParameters(std::size_t begin, std::size_t end) {
+    if (plans_.leftCodes)
+      plans_.rightCodes ? blocks<parameters, true, true>(begin, end) : blocks<parameters, true, false>(begin, end);
+    else
+      plans_.rightCodes ? blocks<parameters, false, true>(begin, end) : blocks<parameters, false, false>(begin, end);
+  }
+
   void readRightCodes(std::size_t begin, std::size_t end) {
     RightFringe fringe(plans_, old_.codes, end);
     SymbolCode* const right = s_.rightCodes.data();
@@ -127,7 +143,7 @@ class PartPass {
     for (std::size_t i = end; i-- > begin;) {
       right[i] = next;
       const SymbolCode code = old_.codes[i];
-      switch (plans_.roles[code]) {
+      switch (plans_.hot[code].role) {
         case Plans::Considered: next = code; break;
         case Plans::Ignored: break;
         case Plans::Closes:
@@ -147,7 +163,7 @@ class PartPass {
   }
 
   /// Block by block: room for the longest that a block can become is made before it, so that nothing inside has to ask.
-  template <bool withLeft, bool withRight>
+  template <bool withParameters, bool withLeft, bool withRight>
   void blocks(std::size_t begin, std::size_t end) {
     constexpr std::size_t blockModules = 1 << 16;
     const std::size_t block = std::clamp<std::size_t>(blockModules / std::max(plans_.longest, plans_.most), 1, 2048);
@@ -160,80 +176,144 @@ class PartPass {
       Arrays& out = *lane_.out;
       out.codes.reserveMore(out.codes.size() + (to - at) * plans_.longest);
       out.parameters.reserveMore(out.parameters.size() + (to - at) * plans_.most);
-      last = rewrite<withLeft, withRight>(at, to, last, fringe);
-      if (out.codes.size() > s_.options.limits.modules) lane_.error = s_.tooMany("modules", s_.options.limits.modules, rule_).error;
+      last = rewrite<withParameters, withLeft, withRight>(at, to, last, fringe);
+      if (!lane_.error && out.codes.size() > s_.options.limits.modules) lane_.error = s_.tooMany("modules", s_.options.limits.modules, rule_).error;
       constexpr std::size_t betweenLooks = 64;
       if (++looks % betweenLooks != 0 || lane_.error) continue;
       if (auto go = s_.mayGoOn(); !go) lane_.error = go.error();
     }
   }
 
-  template <bool withLeft, bool withRight>
+  template <bool withParameters, bool withLeft, bool withRight>
   SymbolCode rewrite(std::size_t begin, std::size_t end, SymbolCode last, LeftFringe& fringe) {
     const SymbolCode* const codes = old_.codes.data();
+    const SymbolCode* const rights = s_.rightCodes.data();
+    const Hot* const hots = plans_.hot.data();
+    const Plan* const plans = plans_.bySymbol.data();
+    const CandidateList* const lists = plans_.lists.data();
     const std::size_t width = plans_.codes + 1;
-    to_ = lane_.out->codes.data() + lane_.out->codes.size();
-    numbers_ = lane_.out->parameters.data() + lane_.out->parameters.size();
+    Pen pen{in_, lane_.out->codes.data() + lane_.out->codes.size(), lane_.out->parameters.data() + lane_.out->parameters.size()};
     std::size_t fired = 0;
-    for (std::size_t at = begin; at < end; ++at) {
+    const QuickSuccessor* chosen = nullptr;
+    bool fine = true;
+    for (std::size_t at = begin; at < end && fine; ++at) {
       const SymbolCode code = codes[at];
-      const Plan& plan = plans_.bySymbol[code];
-      switch (plan.kind) {
+      const Hot hot = hots[code];
+      switch (hot.kind) {
         case Plan::Kind::Copy:
-          *to_++ = code;
-          copyNumbers(numbers_, in_, plan.parameters);
-          numbers_ += plan.parameters;
-          break;
-        case Plan::Kind::Constant:
-          copyCodes(to_, plan);
-          to_ += plan.length;
-          copyNumbers(numbers_, plan.successor->values.data(), plan.values);
-          numbers_ += plan.values;
-          ++fired;
+          if constexpr (withParameters)
+            copy(pen, code, hot.parameters);
+          else
+            *pen.to++ = code;
           break;
         case Plan::Kind::Direct:
-          if (plan.rule->random) machine_.setRandom(successors_.split(step_, at));
-          copyCodes(to_, plan);
-          to_ += plan.length;
-          if (!compute(*plan.rule, *plan.successor, const_cast<double*>(in_))) return last;
+          fine = put(pen, *plans[code].direct, at);
+          chosen = plans[code].direct;
           ++fired;
           break;
+        case Plan::Kind::Guarded: {
+          const QuickSuccessor* const holding = firstThatHolds(plans[code], pen.in, fine);
+          if (holding == nullptr) {
+            copy(pen, code, hot.parameters);
+          } else {
+            fine = put(pen, *holding, at);
+            chosen = holding;
+            ++fired;
+          }
+          break;
+        }
         case Plan::Kind::Lottery:
-          if (!fire(*plan.lottery[drawn(plan, at)], const_cast<double*>(in_), at)) return last;
+          fine = put(pen, *plans[code].choices[drawn(plans[code], at)], at);
           ++fired;
           break;
         case Plan::Kind::Neighbours: {
-          const std::size_t right = withRight ? s_.rightCodes[at] : plans_.codes;
-          const CandidateList& list = plans_.lists[plan.table[(withLeft ? last : plans_.codes) * width + right]];
-          if (list.outright) {
-            write(*list.rules.front(), const_cast<double*>(in_), at);
+          const std::size_t left = withLeft ? last : plans_.codes, right = withRight ? rights[at] : plans_.codes;
+          const CandidateList& list = lists[plans[code].table[left * width + right]];
+          if (list.outright != nullptr) {
+            fine = put(pen, *list.outright, at);
             ++fired;
+          } else if (list.rules.empty()) {
+            copy(pen, code, hot.parameters);
           } else {
-            fired += tryRules(list.rules, [](const CompiledRule* rule) { return rule; }, code, at, plan.parameters);
+            pen_ = pen;
+            fired += tryRules(list.rules, [](const CompiledRule* rule) { return rule; }, code, at, hot.parameters);
+            pen = pen_;
+            fine = !lane_.error;
           }
           break;
         }
         case Plan::Kind::Rules: {
-          const auto& rules = program_.main().productions.rules;
-          const auto& numbers = candidates(*plan.index, in_);
-          const auto ruleOf = [&](std::uint32_t number) { return &rules[number]; };
-          fired += stochastic_ ? tryByWeight(numbers, code, at, plan.parameters) : tryRules(numbers, ruleOf, code, at, plan.parameters);
+          pen_ = pen;
+          fired += tryAny(plans[code], code, at, hot.parameters);
+          pen = pen_;
+          fine = !lane_.error;
           break;
         }
       }
-      if (lane_.error) return last;
-      in_ += plan.parameters;
-      if constexpr (withLeft) last = leftAfter(code, last, fringe);
+      if constexpr (withParameters) pen.in += hot.parameters;
+      if constexpr (withLeft) last = leftAfter(hot.role, code, last, fringe);
     }
+    in_ = pen.in;
+    if (chosen != nullptr) rule_ = chosen->rule;
     lane_.fired += fired;
-    lane_.out->codes.setSize(static_cast<std::size_t>(to_ - lane_.out->codes.data()));
-    lane_.out->parameters.setSize(static_cast<std::size_t>(numbers_ - lane_.out->parameters.data()));
+    lane_.out->codes.setSize(static_cast<std::size_t>(pen.to - lane_.out->codes.data()));
+    lane_.out->parameters.setSize(static_cast<std::size_t>(pen.numbers - lane_.out->parameters.data()));
     return last;
   }
 
+  static void copy(Pen& pen, SymbolCode code, std::size_t parameters) {
+    *pen.to++ = code;
+    // Nearly all modules have at most two parameters; there is always room for two.
+    std::memcpy(pen.numbers, pen.in, 2 * sizeof(double));
+    for (std::size_t i = 2; i < parameters; ++i) pen.numbers[i] = pen.in[i];
+    pen.numbers += parameters;
+  }
+
+  /// Writes a successor whose parameters depend on the module's own at most.
+  bool put(Pen& pen, const QuickSuccessor& successor, std::size_t at) {
+    copyCodes(pen.to, successor);
+    pen.to += successor.length;
+    if (successor.values == 0) return true;
+    if (!successor.quick || single_ || finite_) return putSlowly(pen, successor, at);
+    const QuickTerm* const terms = successor.terms.data();
+    for (std::uint32_t i = 0; i < successor.values; ++i) {
+      const QuickTerm& term = terms[i];
+      const double moved = pen.in[term.slot] * term.factor + term.value;
+      pen.numbers[i] = term.constant != 0 ? term.value : moved;
+    }
+    pen.numbers += successor.values;
+    return true;
+  }
+  bool putSlowly(Pen& pen, const QuickSuccessor& successor, std::size_t at) {
+    if (successor.random) machine_.setRandom(successors_.split(step_, at));
+    pen_ = pen;
+    const bool fine = compute(*successor.rule, *successor.successor, const_cast<double*>(pen.in));
+    pen = pen_;
+    return fine;
+  }
+
+  const QuickSuccessor* firstThatHolds(const Plan& plan, const double* in, bool& fine) {
+    for (const QuickSuccessor* choice : plan.choices) {
+      const CompiledRule& rule = *choice->rule;
+      const bool holds = !rule.hasCondition || machine_.value(rule.condition, const_cast<double*>(in)) != 0;
+      if (holds) return choice;
+      if (rule.condition.kind == Term::Kind::Coded && machine_.trouble()) {
+        fine = inTrouble(rule);
+        return nullptr;
+      }
+    }
+    return nullptr;
+  }
+  std::size_t tryAny(const Plan& plan, SymbolCode code, std::size_t at, std::size_t parameters) {
+    const auto& rules = program_.main().productions.rules;
+    const auto& numbers = candidates(*plan.index, pen_.in);
+    if (stochastic_) return tryByWeight(numbers, code, at, parameters);
+    return tryRules(numbers, [&](std::uint32_t number) { return &rules[number]; }, code, at, parameters);
+  }
+
   /// The left neighbour of what follows a module.
-  SymbolCode leftAfter(SymbolCode code, SymbolCode last, LeftFringe& fringe) {
-    switch (plans_.roles[code]) {
+  SymbolCode leftAfter(std::uint8_t role, SymbolCode code, SymbolCode last, LeftFringe& fringe) {
+    switch (role) {
       case Plans::Considered: return code;
       case Plans::Ignored: return last;
       case Plans::Opens: lane_.stack.push(last); return last;
@@ -248,12 +328,6 @@ class PartPass {
     return before;
   }
 
-  void copy(SymbolCode code, std::size_t parameters) {
-    *to_++ = code;
-    copyNumbers(numbers_, in_, parameters);
-    numbers_ += parameters;
-  }
-
   bool inTrouble(const CompiledRule& rule) {
     lane_.error = s_.failure(*machine_.trouble(), &rule).error;
     return false;
@@ -263,27 +337,27 @@ class PartPass {
   bool compute(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals) {
     const std::size_t count = successor.terms.size();
     const Term* const terms = successor.terms.data();
-    for (std::size_t i = 0; i < count; ++i) numbers_[i] = machine_.value(terms[i], locals);
+    for (std::size_t i = 0; i < count; ++i) pen_.numbers[i] = machine_.value(terms[i], locals);
     if (machine_.trouble()) return inTrouble(rule);
     if (single_)
-      for (std::size_t i = 0; i < count; ++i) numbers_[i] = static_cast<double>(static_cast<float>(numbers_[i]));
+      for (std::size_t i = 0; i < count; ++i) pen_.numbers[i] = static_cast<double>(static_cast<float>(pen_.numbers[i]));
     if (finite_ && !successor.constant) {
       double sum = 0;  // 0 * x is 0 for every finite x, nan for the others
-      for (std::size_t i = 0; i < count; ++i) sum += 0 * numbers_[i];
+      for (std::size_t i = 0; i < count; ++i) sum += 0 * pen_.numbers[i];
       if (sum != 0) {
         machine_.giveUp(ErrorCode::NoAnswer, "a parameter that is not a finite number");
         return inTrouble(rule);
       }
     }
-    numbers_ += count;
+    pen_.numbers += count;
     return true;
   }
   bool writeSuccessor(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals) {
     rule_ = &rule;
     const std::size_t length = successor.codes.size();
     const SymbolCode* const codes = successor.codes.data();
-    for (std::size_t i = 0; i < length; ++i) to_[i] = codes[i];
-    to_ += length;
+    for (std::size_t i = 0; i < length; ++i) pen_.to[i] = codes[i];
+    pen_.to += length;
     return successor.terms.empty() || compute(rule, successor, locals);
   }
   /// A rule with one successor.
@@ -320,10 +394,10 @@ class PartPass {
   /// has no contexts with parameters.
   bool applies(const CompiledRule& rule, std::size_t at, std::size_t parameters, double*& locals, double* frame) {
     for (const Demand& demand : rule.predecessor.front().demands)
-      if (in_[demand.offset] != demand.value) return false;
-    locals = const_cast<double*>(in_);
+      if (pen_.in[demand.offset] != demand.value) return false;
+    locals = const_cast<double*>(pen_.in);
     if (rule.bound > parameters) {
-      copyNumbers(frame, in_, parameters);
+      copyNumbers(frame, pen_.in, parameters);
       locals = frame;
     }
     if (matched_ != Matched::ByTable && !matcher_.contexts(rule, at, at, locals)) return false;
@@ -346,7 +420,7 @@ class PartPass {
       }
       if (lane_.error) return 0;
     }
-    copy(code, parameters);
+    copy(pen_, code, parameters);
     return 0;
   }
 
@@ -369,7 +443,7 @@ class PartPass {
       if (lane_.error) return 0;
     }
     if (weights_.empty()) {
-      copy(code, parameters);
+      copy(pen_, code, parameters);
       return 0;
     }
     const auto& [rule, locals] = lane_.applicable[chosen(weights_, sum * machine_.rng().uniform())];
@@ -393,8 +467,7 @@ class PartPass {
   const CompiledRule* rule_ = nullptr;  ///< the last one that wrote; for messages
   std::size_t frame_ = 1;
   const double* in_ = nullptr;          ///< parameters of the module at hand
-  SymbolCode* to_ = nullptr;
-  double* numbers_ = nullptr;
+  Pen pen_;                             ///< where the slower ways read and write
   std::vector<double> weights_;
 };
 
@@ -447,6 +520,13 @@ void joinLanes(Engine::State& s, int threads) {
 Result<std::size_t> Engine::State::plainStep() {
   constexpr std::size_t worthAThread = 4096;
   const std::size_t size = string.size();
+  if (timeless && calm->worthTrying(size)) {
+    if (const auto changed = calm->step(string, machine(), options.singlePrecision)) {
+      inPlace = true;
+      if (calm->lastRule() != nullptr) lastRule = calm->lastRule();
+      return *changed;
+    }
+  }
   const int threads = static_cast<int>(std::clamp<std::size_t>(size / worthAThread, 1, static_cast<std::size_t>(workers->count())));
   readSurroundings(*this, threads == 1 ? 1 : workers->count());
   if (plans->rightCodes) rightCodes.setSize(size);
@@ -465,7 +545,9 @@ Result<std::size_t> Engine::State::plainStep() {
     const Lane& lane = lanes[static_cast<std::size_t>(i)];
     if (lane.error) return fail(*lane.error);
     fired_ += lane.fired;
+    if (lane.lastRule != nullptr) lastRule = lane.lastRule;
   }
+  calm->disturbed(fired_);
   joinLanes(*this, threads);
   if (spare.codes.size() > options.limits.modules) return tooMany("modules", options.limits.modules, nullptr);
   return fired_;

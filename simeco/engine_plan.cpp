@@ -18,72 +18,102 @@ bool asksForCodesOnly(const CompiledRule& rule, const Program& program) {
   return plain(rule.left) && plain(rule.right) && (rule.right.empty() || rule.simpleRight);
 }
 
+/// Whether the term is a constant or a multiple or a sum of one parameter.
+bool quickTerm(const Term& term, QuickTerm& quick) {
+  quick.slot = term.slot;
+  switch (term.kind) {
+    case Term::Kind::Constant: quick.constant = 1; quick.value = term.value; quick.slot = 0; return true;
+    case Term::Kind::Local: return true;
+    case Term::Kind::LocalTimes: quick.factor = term.value; return true;
+    case Term::Kind::LocalPlus: quick.value = term.value; return true;
+    case Term::Kind::LocalOver:
+    case Term::Kind::LocalCompared:
+    case Term::Kind::Coded: break;
+  }
+  return false;
+}
+
 class Planner {
  public:
-  explicit Planner(const Program& program) : program_(program), main_(program.main()) {}
+  explicit Planner(const Program& program) : program_(program), main_(program.main()), plans_(std::make_unique<Plans>()) {}
 
-  Plans plans() {
-    plans_.codes = program_.symbols->size();
+  std::unique_ptr<Plans> plans() {
+    plans_->codes = program_.symbols->size();
     for (std::size_t code = 0; code < 256; ++code)
-      plans_.roles[code] = program_.opens[code] ? Plans::Opens : program_.closes[code] ? Plans::Closes : main_.ignored[code] ? Plans::Ignored : Plans::Considered;
-    for (std::size_t code = 0; code < plans_.codes; ++code) planSymbol(code);
+      plans_->hot[code].role = program_.opens[code] ? Plans::Opens : program_.closes[code] ? Plans::Closes : main_.ignored[code] ? Plans::Ignored : Plans::Considered;
+    for (std::size_t code = 0; code < plans_->codes; ++code) planSymbol(code);
     // The tables are in place now and do not move any more.
-    for (std::size_t code = 0; code < plans_.codes; ++code)
-      if (tableOf_[code] >= 0) plans_.bySymbol[code].table = plans_.tables[static_cast<std::size_t>(tableOf_[code])].data();
+    for (std::size_t code = 0; code < plans_->codes; ++code)
+      if (tableOf_[code] >= 0) plans_->bySymbol[code].table = plans_->tables[static_cast<std::size_t>(tableOf_[code])].data();
     return std::move(plans_);
   }
 
  private:
   void planSymbol(std::size_t code) {
-    Plan& plan = plans_.bySymbol[code];
-    plan.parameters = program_.parameterCount[code];
+    Plan& plan = plans_->bySymbol[code];
+    Hot& hot = plans_->hot[code];
+    hot.parameters = program_.parameterCount[code];
     plan.index = &main_.productions.bySymbol[code];
-    plans_.parameters = plans_.parameters || plan.parameters > 0;
-    plans_.most = std::max<std::size_t>(plans_.most, plan.parameters);
-    plan.kind = kindOf(plan, code);
-    plans_.constant = plans_.constant && (plan.kind == Plan::Kind::Copy || plan.kind == Plan::Kind::Constant);
-    for (const std::uint32_t number : plan.index->all) measure(main_.productions.rules[number]);
+    plans_->parameters = plans_->parameters || hot.parameters > 0;
+    plans_->most = std::max<std::size_t>(plans_->most, hot.parameters);
+    std::vector<const CompiledRule*> rules;
+    for (const std::uint32_t number : plan.index->all) rules.push_back(&main_.productions.rules[number]);
+    for (const CompiledRule* rule : rules) measure(*rule);
+    hot.kind = kindOf(plan, rules, code);
+    using Kind = Plan::Kind;
+    plans_->leaps = plans_->leaps && (hot.kind == Kind::Copy || (hot.kind == Kind::Direct && plan.direct->successor->constant));
+    const bool steady = hot.kind == Kind::Copy || hot.role == Plans::Considered || hot.role == Plans::Ignored;
+    const bool calm = hot.kind == Kind::Copy || hot.kind == Kind::Direct || hot.kind == Kind::Guarded || hot.kind == Kind::Neighbours;
+    const bool random = std::any_of(rules.begin(), rules.end(), [](const CompiledRule* r) { return r->random; });
+    plans_->calms = plans_->calms && steady && calm && !random;
   }
   void measure(const CompiledRule& rule) {
     for (const CompiledSuccessor& successor : rule.successors) {
-      plans_.longest = std::max(plans_.longest, successor.codes.size());
-      plans_.most = std::max(plans_.most, successor.terms.size());
+      plans_->longest = std::max(plans_->longest, successor.codes.size());
+      plans_->most = std::max(plans_->most, successor.terms.size());
     }
   }
 
-  Plan::Kind kindOf(Plan& plan, std::size_t code) {
-    const auto rules = rulesOf(plan);
+  Plan::Kind kindOf(Plan& plan, const std::vector<const CompiledRule*>& rules, std::size_t code) {
     if (rules.empty()) return Plan::Kind::Copy;
-    const CompiledRule& first = *rules.front();
-    if (!main_.stochastic && demandsNothing(first) && contextFree(first) && first.successors.size() == 1) return direct(plan, first);
-    if (main_.stochastic && std::all_of(rules.begin(), rules.end(), [](const CompiledRule* r) {
-          return demandsNothing(*r) && contextFree(*r) && r->successors.front().weight.kind == Term::Kind::Constant && r->successors.front().weight.value >= 0;
+    const auto all = [&](auto holds) { return std::all_of(rules.begin(), rules.end(), holds); };
+    const bool free = all([](const CompiledRule* r) { return contextFree(*r); });
+    const bool single = all([](const CompiledRule* r) { return r->successors.size() == 1; });
+    if (main_.stochastic && free && all([](const CompiledRule* r) {
+          const Term& weight = r->successors.front().weight;
+          return demandsNothing(*r) && weight.kind == Term::Kind::Constant && weight.value >= 0;
         }))
       return lottery(plan, rules);
+    if (!main_.stochastic && contextFree(*rules.front()) && demandsNothing(*rules.front()) && rules.front()->successors.size() == 1) {
+      plan.direct = quick(*rules.front());
+      return Plan::Kind::Direct;
+    }
+    if (!main_.stochastic && free && single && all([](const CompiledRule* r) { return r->predecessor.front().demands.empty() && !r->randomCondition; })) {
+      for (const CompiledRule* rule : rules) plan.choices.push_back(quick(*rule));
+      return Plan::Kind::Guarded;
+    }
     constexpr std::size_t mostCodes = 64;
-    const bool codesOnly = std::all_of(rules.begin(), rules.end(), [&](const CompiledRule* r) { return asksForCodesOnly(*r, program_); });
-    const bool context = std::any_of(rules.begin(), rules.end(), [](const CompiledRule* r) { return !contextFree(*r); });
-    if (!main_.stochastic && context && codesOnly && !plan.index->numbered && plans_.codes <= mostCodes) return neighbours(rules, code);
+    const bool codesOnly = all([&](const CompiledRule* r) { return asksForCodesOnly(*r, program_); });
+    if (!main_.stochastic && !free && codesOnly && !plan.index->numbered && plans_->codes <= mostCodes) return neighbours(rules, code);
     for (const CompiledRule* rule : rules) addNeeds(*rule);
     return Plan::Kind::Rules;
   }
-  [[nodiscard]] std::vector<const CompiledRule*> rulesOf(const Plan& plan) const {
-    std::vector<const CompiledRule*> rules;
-    for (const std::uint32_t number : plan.index->all) rules.push_back(&main_.productions.rules[number]);
-    return rules;
-  }
 
-  static Plan::Kind direct(Plan& plan, const CompiledRule& rule) {
-    plan.rule = &rule;
-    plan.successor = &rule.successors.front();
-    plan.length = static_cast<std::uint32_t>(plan.successor->codes.size());
-    plan.values = static_cast<std::uint32_t>(plan.successor->terms.size());
-    std::copy_n(plan.successor->codes.begin(), std::min<std::size_t>(plan.length, plan.codes.size()), plan.codes.begin());
-    return plan.successor->constant ? Plan::Kind::Constant : Plan::Kind::Direct;
+  const QuickSuccessor* quick(const CompiledRule& rule) {
+    auto q = std::make_unique<QuickSuccessor>();
+    q->rule = &rule;
+    q->successor = &rule.successors.front();
+    q->random = rule.random;
+    q->length = static_cast<std::uint32_t>(q->successor->codes.size());
+    q->values = static_cast<std::uint32_t>(q->successor->terms.size());
+    std::copy_n(q->successor->codes.begin(), std::min<std::size_t>(q->length, q->codes.size()), q->codes.begin());
+    for (const Term& term : q->successor->terms) q->quick = quickTerm(term, q->terms.emplace_back()) && q->quick;
+    plans_->successors.push_back(std::move(q));
+    return plans_->successors.back().get();
   }
-  static Plan::Kind lottery(Plan& plan, const std::vector<const CompiledRule*>& rules) {
-    plan.lottery = rules;
+  Plan::Kind lottery(Plan& plan, const std::vector<const CompiledRule*>& rules) {
     for (const CompiledRule* rule : rules) {
+      plan.choices.push_back(quick(*rule));
       plan.weights.push_back(rule->successors.front().weight.value);
       plan.sum += plan.weights.back();
     }
@@ -92,33 +122,34 @@ class Planner {
 
   /// For every pair of neighbours the rules whose contexts they meet.
   Plan::Kind neighbours(const std::vector<const CompiledRule*>& rules, std::size_t code) {
-    const std::size_t width = plans_.codes + 1;
+    const std::size_t width = plans_->codes + 1;
     std::vector<std::uint16_t> table(width * width);
     for (std::size_t left = 0; left < width; ++left)
       for (std::size_t right = 0; right < width; ++right) table[left * width + right] = listOf(rules, left, right);
     for (const CompiledRule* rule : rules) {
-      plans_.leftCodes = plans_.leftCodes || !rule->left.empty();
-      plans_.rightCodes = plans_.rightCodes || !rule->right.empty();
+      plans_->leftCodes = plans_->leftCodes || !rule->left.empty();
+      plans_->rightCodes = plans_->rightCodes || !rule->right.empty();
     }
-    tableOf_[code] = static_cast<int>(plans_.tables.size());
-    plans_.tables.push_back(std::move(table));
+    tableOf_[code] = static_cast<int>(plans_->tables.size());
+    plans_->tables.push_back(std::move(table));
     return Plan::Kind::Neighbours;
   }
   std::uint16_t listOf(const std::vector<const CompiledRule*>& rules, std::size_t left, std::size_t right) {
     CandidateList list;
     for (const CompiledRule* rule : rules) {
-      if (!rule->left.empty() && (rule->left.front().code != left || left == plans_.codes)) continue;
-      if (!rule->right.empty() && (rule->right.front().code != right || right == plans_.codes)) continue;
-      list.outright = list.outright || (list.rules.empty() && demandsNothing(*rule) && rule->successors.size() == 1);
+      if (!rule->left.empty() && (rule->left.front().code != left || left == plans_->codes)) continue;
+      if (!rule->right.empty() && (rule->right.front().code != right || right == plans_->codes)) continue;
       list.rules.push_back(rule);
     }
-    const auto [known, added] = listIds_.emplace(list.rules, static_cast<std::uint16_t>(plans_.lists.size()));
-    if (added) plans_.lists.push_back(list);
+    const auto [known, added] = listIds_.emplace(list.rules, static_cast<std::uint16_t>(plans_->lists.size()));
+    if (!added) return known->second;
+    if (!list.rules.empty() && demandsNothing(*list.rules.front()) && list.rules.front()->successors.size() == 1) list.outright = quick(*list.rules.front());
+    plans_->lists.push_back(std::move(list));
     return known->second;
   }
 
   void addNeeds(const CompiledRule& rule) {
-    SurroundingNeeds& needs = plans_.needs;
+    SurroundingNeeds& needs = plans_->needs;
     needs.left = needs.left || !rule.left.empty();
     needs.right = needs.right || (!rule.right.empty() && rule.simpleRight);
     needs.brackets = needs.brackets || !rule.simpleRight;
@@ -129,7 +160,7 @@ class Planner {
 
   const Program& program_;
   const System& main_;
-  Plans plans_;
+  std::unique_ptr<Plans> plans_;
   std::array<int, 256> tableOf_ = [] {
     std::array<int, 256> none{};
     none.fill(-1);
@@ -140,6 +171,6 @@ class Planner {
 
 }  // namespace
 
-Plans planFor(const Program& program) { return Planner(program).plans(); }
+std::unique_ptr<Plans> planFor(const Program& program) { return Planner(program).plans(); }
 
 }  // namespace axil::simeco

@@ -11,55 +11,80 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace axil::simeco {
 
+/// A parameter that is a constant, or a parameter times `factor` plus `value`. Times 1 and plus -0 change no bit of any number.
+struct QuickTerm {
+  double factor = 1;
+  double value = -0.0;
+  std::uint32_t slot = 0;
+  std::uint32_t constant = 0;
+};
+
+/// A successor ready to be written.
+struct QuickSuccessor {
+  alignas(16) std::array<SymbolCode, 32> codes{};  ///< its first modules
+  std::uint32_t length = 0;                        ///< modules
+  std::uint32_t values = 0;                        ///< parameters
+  std::vector<QuickTerm> terms;                    ///< when `quick`
+  bool quick = true;                               ///< every parameter is a QuickTerm
+  bool random = false;
+  const CompiledRule* rule = nullptr;
+  const CompiledSuccessor* successor = nullptr;
+};
+
+/// Rules that may apply beside certain neighbours, in text order.
+struct CandidateList {
+  std::vector<const CompiledRule*> rules;
+  const QuickSuccessor* outright = nullptr;        ///< the first of them, when it always applies
+};
+
 struct Plan {
   enum class Kind : std::uint8_t {
     Copy,        ///< no rule
-    Constant,    ///< always the same successor, all of whose parameters are constant
     Direct,      ///< always the same successor
+    Guarded,     ///< the first whose condition holds of its own parameters
     Lottery,     ///< one of several successors, by fixed weights
     Neighbours,  ///< by the codes of the nearest neighbours
     Rules        ///< whatever else
-  } kind = Kind::Copy;
-  std::uint8_t parameters = 0;                  ///< of the symbol
-  std::uint32_t length = 1;                     ///< modules of the successor
-  std::uint32_t values = 0;                     ///< parameters of the successor
-  alignas(16) std::array<SymbolCode, 32> codes{};  ///< its first modules
-  const CompiledRule* rule = nullptr;
-  const CompiledSuccessor* successor = nullptr;
+  };
   const RuleIndex* index = nullptr;
-  const std::uint16_t* table = nullptr;         ///< Neighbours: list of rules by (left code, right code)
-  std::vector<const CompiledRule*> lottery;
-  std::vector<double> weights;
+  const QuickSuccessor* direct = nullptr;
+  std::vector<const QuickSuccessor*> choices;      ///< Guarded, Lottery
+  std::vector<double> weights;                     ///< Lottery
   double sum = 0;
+  const std::uint16_t* table = nullptr;            ///< Neighbours: list of rules by (left code, right code)
 };
 
-/// Rules that may apply beside certain neighbours, in text order. `outright`: the first of them always does.
-struct CandidateList {
-  std::vector<const CompiledRule*> rules;
-  bool outright = false;
+/// What the inner loop asks of every module, in one place.
+struct Hot {
+  Plan::Kind kind = Plan::Kind::Copy;
+  std::uint8_t role = 0;
+  std::uint8_t parameters = 0;
 };
 
 struct Plans {
+  enum Role : std::uint8_t { Considered, Ignored, Opens, Closes };
+
+  std::array<Hot, 256> hot;
   std::array<Plan, 256> bySymbol;
   std::size_t codes = 0;                        ///< so many symbols; also the code of "nobody" in neighbour tables
+  std::vector<std::unique_ptr<QuickSuccessor>> successors;
   std::vector<std::vector<std::uint16_t>> tables;
   std::vector<CandidateList> lists;
   bool leftCodes = false;                       ///< some table asks for the left neighbour
   bool rightCodes = false;
   SurroundingNeeds needs;                       ///< of the symbols with Kind::Rules
   bool parameters = false;                      ///< some symbol has parameters
-  bool constant = true;                         ///< only Copy and Constant: many steps can be made at once
+  bool leaps = true;                            ///< only Copy and constant Direct: many steps can be made at once
+  bool calms = true;                            ///< only Copy, Direct, Guarded and Neighbours, nothing random, brackets stay
   std::size_t longest = 1;                      ///< modules that one module may become
   std::size_t most = 1;                         ///< parameters that one module may become
-  std::array<std::uint8_t, 256> roles{};        ///< Role of each code for the neighbour codes
-
-  enum Role : std::uint8_t { Considered, Ignored, Opens, Closes };
 };
 
-[[nodiscard]] Plans planFor(const Program& program);
+[[nodiscard]] std::unique_ptr<Plans> planFor(const Program& program);
 
 }  // namespace axil::simeco

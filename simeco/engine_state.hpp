@@ -3,6 +3,7 @@
 /// What an Engine holds. Private to the engine: engine.cpp is the door, engine_general.cpp and engine_plain.cpp are the two ways.
 
 #include "simeco/engine.hpp"
+#include "simeco/engine_calm.hpp"
 #include "simeco/engine_machine.hpp"
 #include "simeco/engine_match.hpp"
 #include "simeco/engine_plan.hpp"
@@ -28,6 +29,7 @@ struct Lane {
   std::vector<double> locals, frames;
   std::vector<std::pair<const CompiledRule*, double*>> applicable;
   std::size_t fired = 0;
+  const CompiledRule* lastRule = nullptr;
   std::optional<Error> error;
 };
 
@@ -53,6 +55,9 @@ struct Engine::State {
   std::unique_ptr<Plans> plans;    ///< of the plain way
   std::unique_ptr<Workers> workers;
   std::vector<Lane> lanes;
+  std::unique_ptr<Calm> calm;
+  bool inPlace = false;            ///< the last step changed `string` itself
+  const CompiledRule* lastRule = nullptr;  ///< one that fired lately; for messages
   Buffer<SymbolCode> rightCodes;   ///< right neighbour of every module
   bool walking = false;            ///< sub-L-systems: contexts walk, since ignored letters differ
   bool plain = false;
@@ -79,6 +84,9 @@ struct Engine::State {
   /// Rewrites the whole string into `spare`; returns how many rules fired.
   [[nodiscard]] Result<std::size_t> generalStep(StepTrace* trace);
   [[nodiscard]] Result<std::size_t> plainStep();
+  /// Many steps at once, where rules are so simple that they can be multiplied.
+  [[nodiscard]] bool canLeap() const;
+  [[nodiscard]] Result<Outcome> leap(std::int64_t count, std::vector<std::size_t>& modulesPerStep);
   [[nodiscard]] Result<Image> makeImage();
   /// Instances for the `?` modules of the axiom.
   [[nodiscard]] Result<void> findVisits();
