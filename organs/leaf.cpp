@@ -148,8 +148,14 @@ Mesh halfMesh(const LeafShape& shape, const std::vector<Ruling>& rulings, int co
     return sheet.vertexAt(glm::dvec2{0, r.foot} * (1 - s) + r.margin * s);
   };
   for (std::size_t i = 0; i + 1 < rulings.size(); ++i)
-    for (int c = 0; c < columns; ++c)
-      sheet.addQuad(at(rulings[i], c), at(rulings[i], c + 1), at(rulings[i + 1], c + 1), at(rulings[i + 1], c));
+    for (int c = 0; c < columns; ++c) {
+      // One after another: vertices are numbered as they are first met, and compilers evaluate arguments in different orders.
+      const std::uint32_t inner = at(rulings[i], c);
+      const std::uint32_t outer = at(rulings[i], c + 1);
+      const std::uint32_t nextOuter = at(rulings[i + 1], c + 1);
+      const std::uint32_t nextInner = at(rulings[i + 1], c);
+      sheet.addQuad(inner, outer, nextOuter, nextInner);
+    }
   return sheet.mesh();
 }
 

@@ -186,6 +186,15 @@ TEST(LeafParts, FoldUpFromTheMidrib) {
   EXPECT_TRUE(left && right) << "the crease needs the normals of both halves";
 }
 
+// Two compilers must number vertices alike, or their mesh files differ: from the midrib out, from the base up.
+TEST(LeafParts, VerticesAreNumberedFromTheBaseOutwards) {
+  const std::vector<Part> parts = leafParts(*leafShapeNamed("deltoid"), std::nullopt, Detail::Close);
+  const Mesh& blade = bladeOf(parts);
+  EXPECT_EQ(blade.positions[0], glm::vec3(0, 0, 0));
+  EXPECT_LT(blade.positions[0].x, blade.positions[1].x);
+  EXPECT_LT(blade.positions[1].y, blade.positions[2].y);
+}
+
 TEST(LeafParts, TheSameArgumentsGiveTheSameMesh) {
   const LeafShape shape = *leafShapeNamed("palmately lobed");
   const auto once = leafParts(shape, 0.8, Detail::Close);
