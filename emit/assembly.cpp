@@ -25,7 +25,7 @@ const glm::dvec4 kLeafColour{0.22, 0.50, 0.16, 1};
 
 simeco::Attribute colour(Grammar& grammar, const glm::dvec4& c) {
   Builder b(grammar);
-  return b.attribute("ColorFront", b.call("RGBA", {b.number(c.x, kPlain), b.number(c.y, kPlain), b.number(c.z, kPlain), b.number(c.w, kPlain)}));
+  return b.attribute("ColorFront", b.call("RGBA", {b.printed(c.x, kPlain), b.printed(c.y, kPlain), b.printed(c.z, kPlain), b.printed(c.w, kPlain)}));
 }
 
 void addLeaf(Builder& b, std::vector<Module>& to, const PlannedLeaf& leaf, const Digits& digits) {
@@ -57,6 +57,7 @@ class RuleWriter {
 
   void write() {
     rules_.label = "w";
+    rules_.productions.reserve(2 * plan_.segments.size() + 1);
     rules_.axiom = {builder_.organ("A", 0)};
     std::vector<Module> start;
     for (const PlannedLeaf& l : plan_.rootLeaves) addLeaf(builder_, start, l, plan_.digits);
@@ -117,7 +118,9 @@ std::vector<std::string> heading(const Plan& plan) {
 }
 
 void addStages(const Plan& plan, Grammar& grammar, const EmitOptions& options) {
-  std::vector<Stage> stems{growingPointStage(grammar, plan.growingPoint, options)};
+  std::vector<Stage> stems;
+  stems.reserve(plan.segments.size() + plan.petioles.size() + 1);
+  stems.push_back(growingPointStage(grammar, plan.growingPoint, options));
   const auto petiole = [&](std::size_t p) {
     return stemStage(grammar, plan.petioleStageOf(p), plan.petioles[p], plan.petioles[p] * kPetioleRadius, plan.digits, options);
   };
@@ -150,10 +153,11 @@ Stage stemStage(Grammar& grammar, int number, simeco::ExprId length, double radi
   Builder b(grammar);
   Stage stage;
   stage.number = number;
+  stage.attributes.reserve(5);
   stage.attributes.push_back(b.text("Model", options.stemModel));
   if (!options.stemTexture.empty()) stage.attributes.push_back(b.text("TextureFront", options.stemTexture));
   stage.attributes.push_back(b.attribute("GrowRate", length));
-  stage.attributes.push_back(b.attribute("GrowTime", b.number(1, kPlain)));
+  stage.attributes.push_back(b.attribute("GrowTime", b.printed(1, kPlain)));
   stage.attributes.push_back(b.attribute("BroadenRate", b.number(radius / simeco::modelRadius, digits.length)));
   stage.attributes.push_back(colour(grammar, kStemColour));
   return stage;
@@ -166,7 +170,7 @@ Stage leafStage(Grammar& grammar, int number, const LeafStage& leaf, const Digit
   stage.attributes.push_back(b.text("Model", leaf.shape.empty() ? "DefaultLeaf.i" : leaf.shape + ".i"));
   if (!options.leafTexture.empty()) stage.attributes.push_back(b.text("TextureFront", options.leafTexture));
   stage.attributes.push_back(b.attribute("GrowRate", b.number(leaf.length, digits.length)));
-  stage.attributes.push_back(b.attribute("GrowTime", b.number(1, kPlain)));
+  stage.attributes.push_back(b.attribute("GrowTime", b.printed(1, kPlain)));
   if (leaf.width > 0) stage.attributes.push_back(b.attribute("BroadenRate", b.number(leaf.width / 2 / simeco::modelRadius, digits.length)));
   stage.attributes.push_back(colour(grammar, kLeafColour));
   return stage;
@@ -208,6 +212,8 @@ Assembled assembled(const Plan& plan, const EmitOptions& options) {
   Assembled out;
   out.grammar = emptyGrammar(options, plan.position.at, plan.direction, plan.digits);
   out.grammar.comments.before = heading(plan);
+  constexpr std::size_t kExpressionsOfASegment = 16;
+  out.grammar.expressions.reserve(kExpressionsOfASegment * (plan.segments.size() + 10));
   addStages(plan, out.grammar, options);
   RuleWriter(plan, out).write();
   return out;

@@ -20,6 +20,8 @@ class Builder {
   [[nodiscard]] simeco::ExprId number(double value, int decimals) {
     return grammar_.add(decimals < 0 ? simeco::Number{value, -1} : simeco::fixedNumber(value, decimals));
   }
+  /// A number that is already rounded to so many decimals.
+  [[nodiscard]] simeco::ExprId printed(double value, int decimals) { return grammar_.add(simeco::Number{value, decimals}); }
   [[nodiscard]] simeco::ExprId whole(int value) { return grammar_.add(simeco::Number{static_cast<double>(value), -1}); }
   [[nodiscard]] simeco::ExprId name(std::string text) { return grammar_.add(simeco::Name{std::move(text)}); }
   [[nodiscard]] simeco::ExprId call(std::string function, std::vector<simeco::ExprId> arguments) {
@@ -41,10 +43,10 @@ class Builder {
     return {std::move(letter), std::move(arguments), {}};
   }
   [[nodiscard]] simeco::Module organ(const char* letter, int stage) { return module(letter, {whole(stage)}); }
-  /// Appends rotr(..) and rotu(..).
+  /// Appends rotr(..) and rotu(..), already rounded.
   void turn(std::vector<simeco::Module>& to, Turn turn, int decimals) {
-    to.push_back(module("rotr", {number(turn.rotr.radians(), decimals)}));
-    to.push_back(module("rotu", {number(turn.rotu.radians(), decimals)}));
+    to.push_back(module("rotr", {printed(turn.rotr.radians(), decimals)}));
+    to.push_back(module("rotu", {printed(turn.rotu.radians(), decimals)}));
   }
   [[nodiscard]] static simeco::Production rule(std::vector<simeco::Module> predecessor, std::vector<simeco::Module> successor) {
     simeco::Production production;

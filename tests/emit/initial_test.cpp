@@ -112,6 +112,20 @@ TEST(InitialGrammar, DoesNotDriftAlongAThousandSegments) {
   }
 }
 
+TEST(InitialGrammar, KeepsTheEndOfALongRunnerWhereItIs) {
+  // Forty times as long as it is high: a constant error of direction within rounding would carry its end away.
+  double worst = 0;
+  for (int turn = 0; turn < 40; ++turn) {
+    std::vector<glm::dvec3> points;
+    for (int i = 0; i <= 400; ++i) points.push_back(glm::dvec3{0.1 * i, 0.0001 * i, 0.00003 * i});
+    points.push_back(points.back() + glm::dvec3{0.3, 1, 0.2});
+    const Skeleton runner = test::turnedAboutY(test::chainThrough(points), Angle::fromDegrees(9.1 * turn));
+    worst = std::max(worst, roundTrip(runner).node);
+  }
+  std::cout << "worst node of a runner: " << worst << " of its height\n";
+  EXPECT_LT(worst, 5e-6);
+}
+
 TEST(InitialGrammar, GrowsStraightAndReversedAndVeryShortSegments) {
   const std::vector<glm::dvec3> points{{0, 0, 0}, {0, 0.5, 0}, {0, 1, 0}, {0, 0.4, 0}, {0, 0.400001, 0.000001}, {0.3, 0.4, 0}};
   Skeleton plant = test::chainThrough(points);

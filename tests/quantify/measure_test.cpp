@@ -74,9 +74,12 @@ TEST(Measure, BranchAxesArePerpendicularToTheirSegments) {
 }
 
 TEST(Measure, EquallyNearChildrenMakeTheSmallerIdTheMainOne) {
-  const std::vector<glm::dvec3> trunk{{0, 0, 0}, {0, 0.2, 0}, {0.1, 0.3, 0}};
+  // A leaning trunk, so that the two equal angles are not equal in every bit.
+  const glm::dvec3 along{0.05, 0.2, 0.03};
+  const glm::dvec3 aside = glm::cross(along, glm::dvec3{0.2, 0.1, 0.7});
+  const std::vector<glm::dvec3> trunk{{0, 0, 0}, along, along * 1.5 + aside};
   Skeleton plant = test::chainThrough(trunk);
-  const std::vector<glm::dvec3> twin{{-0.1, 0.3, 0}};
+  const std::vector<glm::dvec3> twin{along * 1.5 - aside};
   test::addStem(plant, StemId{1}, NodeId{2}, twin);
   for (int turn = 0; turn < 36; ++turn) {
     const Measurements m = measured(test::turnedAboutY(plant, Angle::fromDegrees(10 * turn)));
