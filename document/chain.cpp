@@ -1,16 +1,13 @@
 #include "document/chain.hpp"
 
+#include "document/traits.hpp"
+
 #include <algorithm>
 #include <map>
 
 namespace axil::document {
 
 namespace {
-
-std::filesystem::path photoPath(const OpenProject& open, const ProjectView& view) {
-  const std::filesystem::path photo(view.photo);
-  return photo.is_absolute() ? photo : open.folder / photo;
-}
 
 std::string sizeText(glm::ivec2 size) { return std::to_string(size.x) + " x " + std::to_string(size.y); }
 
@@ -27,13 +24,13 @@ std::string photoFault(const skeleton3d::View& view, glm::ivec2 photo) {
 }
 
 // Fills in the sizes of the photos; what the photos' own data say of the lens goes to `focals`, by view.
-Result<std::vector<skeleton3d::View>> readViews(const OpenProject& open, std::map<std::string, double>& focals) {
+Result<std::vector<skeleton3d::View>> readViews(const OpenProject& open, const ChainOptions& options, std::map<std::string, double>& focals) {
   std::vector<skeleton3d::View> views;
   std::vector<std::string> faults;
   for (const ProjectView& view : open.project.views) {
     views.push_back(view.view);
     if (view.photo.empty()) continue;
-    const auto photo = skeleton3d::probePhoto(photoPath(open, view));
+    const auto photo = options.probePhoto(photoPath(open, view));
     const std::string fault = photo ? photoFault(view.view, {photo->width, photo->height}) : "view '" + view.view.name + "': " + photo.error().message;
     if (!fault.empty()) {
       faults.push_back(fault);
@@ -72,6 +69,11 @@ emit::EmitOptions emitOptionsOf(const Project& project, const ChainOptions& opti
 
 }  // namespace
 
+std::filesystem::path photoPath(const OpenProject& open, const ProjectView& view) {
+  const std::filesystem::path photo(view.photo);
+  return photo.is_absolute() ? photo : open.folder / photo;
+}
+
 const char* nameOf(GrammarKind kind) {
   switch (kind) {
     case GrammarKind::Initial: return "initial";
@@ -82,8 +84,7 @@ const char* nameOf(GrammarKind kind) {
 }
 
 Result<keywords::Presets> presetsOf(const Project& project) {
-  if (project.description.empty()) return keywords::Presets{};
-  const auto traits = keywords::readTraits(project.description);
+  const auto traits = traitsOf(project);
   if (!traits) return traits.failure();
   return keywords::presetsOf(*traits);
 }
@@ -91,7 +92,7 @@ Result<keywords::Presets> presetsOf(const Project& project) {
 Result<Measured> measured(const OpenProject& open, const ChainOptions& options) {
   options.watch.report("reading the photos", 0);
   std::map<std::string, double> focals;
-  auto views = readViews(open, focals);
+  auto views = readViews(open, options, focals);
   if (!views) return views.failure();
   Measured result{std::move(*views), nodesOf(open.project), {}, {}};
   const bool anyUnknown = std::any_of(result.views.begin(), result.views.end(),

@@ -9,6 +9,8 @@
 #include "keywords/keywords.hpp"
 #include "quantify/quantify.hpp"
 
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -19,12 +21,17 @@ struct ChainOptions {
   TurningRule turning = TurningRule::Exact;
   int decimals = 6;  ///< of the numbers in a grammar; -1: full precision
   Watch watch = {};
+  /// How size and lens of a photo are found out; whoever asks often keeps the answers.
+  std::function<Result<skeleton3d::PhotoInfo>(const std::filesystem::path&)> probePhoto = skeleton3d::probePhoto;
 };
+
+/// Where the view's photo is.
+[[nodiscard]] std::filesystem::path photoPath(const OpenProject& open, const ProjectView& view);
 
 enum class GrammarKind { Initial, Predictive, Structured };
 [[nodiscard]] const char* nameOf(GrammarKind kind);
 
-/// What the project's description sets.
+/// What the project's description and the user's decisions about it set.
 [[nodiscard]] Result<keywords::Presets> presetsOf(const Project& project);
 
 /// What the measuring room starts from: every photo that is named is there, is a photo and has the size the file says;
