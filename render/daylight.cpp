@@ -15,8 +15,8 @@ namespace {
 
 /// The sun's disc: half its opening, and how many directions stand for it.
 constexpr double sunSpread = 0.085;
-constexpr int sunDirections = 12, fewestSkyPairs = 10, mostSkyPairs = 40;
-constexpr int sunPixels = 640, skyPixels = 320, groundCells = 320;
+constexpr int sunDirections = 12, fewestSkyPairs = 10, mostSkyPairs = 28;
+constexpr int sunPixels = 640, skyPixels = 256, groundCells = 320;
 /// Triangles drawn in all, at most, before fewer directions are taken.
 constexpr double triangleBudget = 12e6;
 /// A point is in shadow when something lies more than this many pixels of the depth picture before it.

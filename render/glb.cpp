@@ -12,7 +12,9 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <sstream>
+#include <ostream>
+#include <streambuf>
+#include <string>
 
 namespace axil::render {
 namespace {
@@ -20,13 +22,34 @@ namespace {
 /// A file holds its length in 32 bits; some room is left for the text.
 constexpr std::size_t largestBuffer = 3'900'000'000;
 
-/// What is said once in a file and meant often.
+/// A stream into a string that has its room from the start: a large file would be copied several times else.
+class StringSink : public std::streambuf {
+ public:
+  explicit StringSink(std::size_t expectedBytes) { text_.reserve(expectedBytes); }
+  [[nodiscard]] std::string take() && { return std::move(text_); }
+
+ protected:
+  std::streamsize xsputn(const char* from, std::streamsize count) override {
+    text_.append(from, static_cast<std::size_t>(count));
+    return count;
+  }
+  int_type overflow(int_type c) override {
+    if (!traits_type::eq_int_type(c, traits_type::eof())) text_.push_back(traits_type::to_char_type(c));
+    return traits_type::not_eof(c);
+  }
+
+ private:
+  std::string text_;
+};
+
+/// Collects meshes and nodes; a material that several parts share is written once.
 class GlbWriter {
  public:
   explicit GlbWriter(const PlantMesh& mesh) : mesh_(mesh) {
     model_.asset.version = "2.0";
     model_.asset.generator = "Axil";
     model_.buffers.resize(1);
+    model_.buffers[0].data.reserve(mesh.stems.positions.size() * 32 + mesh.stems.triangles.size() * 4 + 64);
   }
 
   int addStems() {
@@ -96,10 +119,11 @@ class GlbWriter {
 
   [[nodiscard]] std::optional<std::string> written() {
     if (byteCount() == 0) model_.buffers.clear();
-    std::ostringstream stream;
+    StringSink sink(byteCount() + 1024 + 320 * model_.nodes.size());
+    std::ostream stream(&sink);
     tinygltf::TinyGLTF writer;
-    if (!writer.WriteGltfSceneToStream(&model_, stream, false, true)) return std::nullopt;
-    return std::move(stream).str();
+    if (!writer.WriteGltfSceneToStream(&model_, stream, false, true) || !stream) return std::nullopt;
+    return std::move(sink).take();
   }
 
  private:

@@ -210,6 +210,7 @@ Camera cameraFitting(const PlantMesh& mesh, ViewPreset preset, int width_px, int
 }
 
 struct Painter::Inside {
+  explicit Inside(HeadlessWindow opened) : window(std::move(opened)) {}
   HeadlessWindow window;
 };
 

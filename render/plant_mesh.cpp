@@ -182,6 +182,7 @@ Result<void> addStems(PlantMesh& mesh, const Plant& plant, Detail detail, std::s
   const StemScale scale = stemScaleOf(plant, axes);
   StemDrawer drawer(plant, axes, stemLooksOf(plant, mesh), scale);
   TubeBuilder builder;
+  builder.expect(plant.organs.size(), axes.axes.size(), tubeDetailFor(detail, 0));
   for (std::size_t i = 0; i < axes.axes.size(); ++i) {
     const TubePath path = drawer.pathOf(axes.axes[i], i);
     builder.add(path, tubeDetailFor(detail, path.nodes.front().radius / scale.extent));

@@ -166,7 +166,7 @@ std::vector<std::vector<TubeRing>> centreLine(const TubePath& path, const TubeDe
     const bool endsRun = i + 1 == chords.size() || needsBall(chords[i], chords[i + 1], nodes[i + 1].radius);
     const Cubic cubic = cubicAt(nodes, chords, i, startsRun, endsRun);
     const auto segment = static_cast<std::int32_t>(i);
-    const TubeCollar collar = i == 0 ? path.collar : TubeCollar{};
+    const TubeCollar collar = i == 0 && detail.capRings > 1 ? path.collar : TubeCollar{};
     if (startsRun) {
       runs.emplace_back();
       runs.back().push_back(ringAt(nodes[i], nodes[i + 1], cubic, 0, segment));
@@ -202,7 +202,9 @@ std::uint32_t TubeBuilder::addPole(const glm::dvec3& at, const glm::dvec3& norma
 }
 
 void TubeBuilder::addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, const TriangleSource& source) {
-  mesh_.triangles.insert(mesh_.triangles.end(), {a, b, c});
+  mesh_.triangles.push_back(a);
+  mesh_.triangles.push_back(b);
+  mesh_.triangles.push_back(c);
   mesh_.sources.push_back(source);
 }
 
@@ -228,6 +230,17 @@ void TubeBuilder::sweep(std::span<const TubeRing> rings, std::span<const Triangl
   }
   const std::uint32_t tipPole = addPole(poleOf(tip, 1), tip.tangent, tip.colour);
   for (std::uint32_t s = 0; s < sides; ++s) addTriangle(tipPole, lower + s, lower + next(s), sourceOf(tip));
+}
+
+void TubeBuilder::expect(std::size_t segments, std::size_t stems, const TubeDetail& detail) {
+  const std::size_t bandsOfSegment = detail.turnPerRing.degrees() < 10 ? 4 : 2;
+  const std::size_t rings = segments * bandsOfSegment + stems * (1 + 2 * static_cast<std::size_t>(detail.capRings));
+  const std::size_t sides = static_cast<std::size_t>(detail.sides);
+  mesh_.positions.reserve(rings * sides);
+  mesh_.normals.reserve(rings * sides);
+  mesh_.colours.reserve(rings * sides);
+  mesh_.triangles.reserve(rings * sides * 6);
+  mesh_.sources.reserve(rings * sides * 2);
 }
 
 void TubeBuilder::add(const TubePath& path, const TubeDetail& detail) {

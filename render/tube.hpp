@@ -37,7 +37,7 @@ struct TubePath {
 struct TubeDetail {
   int sides = 12;                    ///< at least 3
   Angle turnPerRing = Angle::fromDegrees(9);
-  int capRings = 3;                  ///< rings of a round end, its rim included; at least 1
+  int capRings = 3;                  ///< rings of a round end, its rim included; at least 1; with 1 collars are left out
 };
 
 /// One ring of a tube: where its centre line is, where it goes, how thick it is there.
@@ -56,6 +56,8 @@ struct TubeRing {
 /// Collects tubes into one mesh.
 class TubeBuilder {
  public:
+  /// Makes room for about so many segments on so many stems; memory that grows by itself costs more than the tubes.
+  void expect(std::size_t segments, std::size_t stems, const TubeDetail& detail);
   void add(const TubePath& path, const TubeDetail& detail);
   [[nodiscard]] std::size_t triangleCount() const { return mesh_.triangles.size() / 3; }
   [[nodiscard]] StemMesh take() { return std::move(mesh_); }

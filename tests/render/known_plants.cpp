@@ -100,7 +100,7 @@ class ShrubMaker {
     double side = rng_.uniform(0, 3);
     for (int k = 0; k < shoot.segments; ++k) {
       const double along = static_cast<double>(k) / shoot.segments;
-      direction = glm::normalize(glm::normalize(direction) + glm::dvec3(rng_.uniform(-0.16, 0.16), 0.13, rng_.uniform(-0.16, 0.16)));
+      direction = glm::normalize(glm::normalize(direction) + glm::dvec3{rng_.uniform(-0.16, 0.16), 0.13, rng_.uniform(-0.16, 0.16)});
       at = make_.on(at, shoot.branch && k == 0, direction, shoot.length * (1 - 0.35 * along), shoot.radius * (1 - 0.7 * along), stem_);
       side += 1.5707963;  // decussate
       const bool last = k + 1 == shoot.segments;
@@ -122,7 +122,8 @@ class ShrubMaker {
     if (along < 0.1 && shoot.level == 0) return;
     const OrganId petiole = make_.on(at, true, glm::normalize(out * 0.8 + direction * 0.6), 0.014, 0.0011, stem_);
     const double size = (last ? 0.6 : 1.0) * rng_.uniform(0.052, 0.075);
-    make_.on(petiole, false, glm::normalize(out + direction * 0.25 + glm::dvec3(0, rng_.uniform(-0.35, 0.1), 0)), size, 0, leaf_);
+    const double droop = rng_.uniform(-0.35, 0.1);
+    make_.on(petiole, false, glm::normalize(out + direction * 0.25 + glm::dvec3(0, droop, 0)), size, 0, leaf_);
     Organ& blade = make_.plant.organs.back();
     blade.adaxial = perpendicularTo(blade.direction, PlantDirection::along({0.02, 1, 0.01}));
   }

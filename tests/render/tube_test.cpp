@@ -65,7 +65,7 @@ std::vector<glm::dvec3> randomChain(Rng& rng, int count) {
   std::vector<glm::dvec3> nodes{{0, 0, 0}};
   glm::dvec3 direction(0, 1, 0);
   for (int i = 0; i < count; ++i) {
-    direction = glm::normalize(direction + glm::dvec3(rng.uniform(-0.8, 0.8), rng.uniform(-0.8, 0.8), rng.uniform(-0.8, 0.8)));
+    direction = glm::normalize(direction + glm::dvec3{rng.uniform(-0.8, 0.8), rng.uniform(-0.8, 0.8), rng.uniform(-0.8, 0.8)});
     nodes.push_back(nodes.back() + direction * rng.uniform(0.02, 0.3));
   }
   return nodes;
