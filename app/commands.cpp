@@ -267,7 +267,9 @@ std::string summary(const document::BuildReport& r, const std::string& folder) {
   std::snprintf(numbers, sizeof numbers,
                 "%s: %zu nodes, %zu stems, %zu segments, %zu leaves; %.3g high. Clicks within %.2f px of their nodes; regrown within %.1e of the height.\n",
                 r.name.c_str(), r.nodes, r.stems, r.segments, r.leaves, r.height, r.worstReprojection_px, r.height > 0 ? r.worstRegrown / r.height : 0.0);
-  std::string text = numbers + ("Written to " + folder + ":\n");
+  std::string text = numbers;
+  for (const std::string& note : r.notes) text += "Note: " + note + "\n";
+  text += "Written to " + folder + ":\n";
   for (const std::string& file : r.files) text += "  " + file + "\n";
   return text;
 }

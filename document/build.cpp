@@ -27,6 +27,7 @@ constexpr GrammarKind kKinds[] = {GrammarKind::Initial, GrammarKind::Predictive,
 struct Output {
   StagingFolder staging;
   std::vector<std::string> files = {};
+  std::vector<std::string> notes = {};
 
   Result<void> write(const std::string& name, const std::string& content) {
     files.push_back(name);
@@ -64,25 +65,37 @@ double worstDistance(const Skeleton& skeleton, const simeco::Plant& plant) {
   return worst;
 }
 
-/// What the predictive grammar grows.
+/// The grammars of a plant. A plant that shows no way on (a single segment) has no predictive one: that is noted, and no failure.
+Result<std::map<GrammarKind, Grammar>> writeGrammars(Output& output, const Project& project, const quantify::Measurements& measurements,
+                                                     const ChainOptions& options) {
+  std::map<GrammarKind, Grammar> grammars;
+  for (const GrammarKind kind : kKinds) {
+    auto grammar = grammarOf(project, measurements, kind, options);
+    if (!grammar && kind != GrammarKind::Initial && grammar.error().code == ErrorCode::NoAnswer) {
+      output.notes.push_back(std::string("there is no ") + nameOf(kind) + " grammar: " + grammar.error().message);
+      continue;
+    }
+    if (!grammar) return grammar.failure();
+    if (auto written = output.write(std::string(nameOf(kind)) + ".simeco", simeco::print(*grammar)); !written) return written.failure();
+    grammars.emplace(kind, std::move(*grammar));
+  }
+  return grammars;
+}
+
+/// What the furthest-reaching grammar grows: the predictive one, where there is one.
 Result<simeco::Plant> nextOf(const std::map<GrammarKind, Grammar>& grammars, const Project& project, const ChainOptions& options) {
-  const auto growth = simeco::prepareGrowth(grammars.at(GrammarKind::Predictive), {.seed = project.seed, .watch = options.watch, .turning = options.turning});
+  const GrammarKind kind = grammars.contains(GrammarKind::Predictive) ? GrammarKind::Predictive : GrammarKind::Initial;
+  const auto growth = simeco::prepareGrowth(grammars.at(kind), {.seed = project.seed, .watch = options.watch, .turning = options.turning});
   if (!growth) return growth.failure();
   return simeco::plantAt(*growth, simeco::completeTime(*growth));
 }
 
-Result<void> writePictures(Output& output, const render::PlantMesh& plant, const render::PlantMesh& next, const skeleton3d::Camera& camera,
-                           const BuildOptions& options) {
-  auto painter = render::Painter::open();
-  if (!painter) return painter.failure();
-  for (const auto& [name, mesh] : {std::pair{"plant.png", &plant}, std::pair{"predicted.png", &next}}) {
-    const auto image = painter->draw(*mesh, {.width_px = options.width, .height_px = options.height, .view = camera});
-    if (!image) return image.failure();
-    const auto bytes = render::pngBytes(*image);
-    if (!bytes) return bytes.failure();
-    if (auto written = output.write(name, *bytes); !written) return written;
-  }
-  return {};
+Result<void> writePicture(Output& output, const char* name, const render::PlantMesh& mesh, const skeleton3d::Camera& camera, const BuildOptions& options) {
+  const auto image = render::drawPlant(mesh, {.width_px = options.width, .height_px = options.height, .view = camera});
+  if (!image) return image.failure();
+  const auto bytes = render::pngBytes(*image);
+  if (!bytes) return bytes.failure();
+  return output.write(name, *bytes);
 }
 
 /// The growth as pictures, and as a video where one is wanted.
@@ -114,7 +127,7 @@ std::string reportText(const BuildReport& report) {
   nlohmann::ordered_json json = {{"axil_report", 1}, {"name", report.name}, {"unit", report.unit}, {"nodes", report.nodes}, {"stems", report.stems},
                                  {"segments", report.segments}, {"leaves", report.leaves}, {"height", report.height},
                                  {"worst_reprojection_px", report.worstReprojection_px}, {"worst_regrown", report.worstRegrown},
-                                 {"suspect_clicks", nlohmann::ordered_json::array()}, {"files", report.files}};
+                                 {"suspect_clicks", nlohmann::ordered_json::array()}, {"notes", report.notes}, {"files", report.files}};
   for (const auto& click : report.suspects) json["suspect_clicks"].push_back({{"node", click.node.value}, {"view", click.view}, {"off_px", click.off_px}});
   return jsonLines(json);
 }
@@ -150,20 +163,15 @@ Result<BuildReport> build(const OpenProject& open, const fs::path& folder, const
   if (auto w = output.write("stems.csv", quantify::segmentsCsv(*measurements)); !w) return w.failure();
 
   watch.report("writing the grammars", 0.1);
-  std::map<GrammarKind, Grammar> grammars;
-  for (const GrammarKind kind : kKinds) {
-    auto grammar = grammarOf(open.project, *measurements, kind, options.chain);
-    if (!grammar) return grammar.failure();
-    if (auto w = output.write(std::string(nameOf(kind)) + ".simeco", simeco::print(*grammar)); !w) return w.failure();
-    grammars.emplace(kind, std::move(*grammar));
-  }
+  auto grammars = writeGrammars(output, open.project, *measurements, options.chain);
+  if (!grammars) return grammars.failure();
 
   watch.report("growing", 0.2);
-  const auto growth = simeco::prepareGrowth(grammars.at(GrammarKind::Initial), {.seed = open.project.seed, .watch = watch, .turning = options.chain.turning});
+  const auto growth = simeco::prepareGrowth(grammars->at(GrammarKind::Initial), {.seed = open.project.seed, .watch = watch, .turning = options.chain.turning});
   if (!growth) return growth.failure();
   const auto plant = simeco::plantAt(*growth, simeco::completeTime(*growth));
   if (!plant) return plant.failure();
-  const auto next = nextOf(grammars, open.project, options.chain);
+  const auto next = nextOf(*grammars, open.project, options.chain);
   if (!next) return next.failure();
   const auto mesh = render::meshOf(*plant);
   if (!mesh) return mesh.failure();
@@ -173,7 +181,9 @@ Result<BuildReport> build(const OpenProject& open, const fs::path& folder, const
   const auto camera = render::cameraFitting(*nextMesh, render::ViewPreset::ThreeQuarter, options.width, options.height);
 
   watch.report("drawing", 0.3);
-  if (auto w = writePictures(output, *mesh, *nextMesh, camera, options); !w) return w.failure();
+  if (auto w = writePicture(output, "plant.png", *mesh, camera, options); !w) return w.failure();
+  if (grammars->contains(GrammarKind::Predictive))
+    if (auto w = writePicture(output, "predicted.png", *nextMesh, camera, options); !w) return w.failure();
   if (auto w = writeGrowth(output, *growth, camera, options); !w) return w.failure();
   const auto glb = render::glbBytes(*mesh, {.metresPerUnit = metresPer(open.project.unit)});
   if (!glb) return glb.failure();
@@ -183,6 +193,7 @@ Result<BuildReport> build(const OpenProject& open, const fs::path& folder, const
   report.suspects = clicks->suspects;
   output.files.emplace_back("report.json");
   report.files = output.files;
+  report.notes = output.notes;
   if (auto w = writeFile(output.staging.path() / "report.json", reportText(report)); !w) return w.failure();
   if (auto published = output.staging.publish(); !published) return published.failure();
   return report;

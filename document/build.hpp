@@ -32,6 +32,7 @@ struct BuildReport {
   double worstReprojection_px = 0;
   double worstRegrown = 0;              ///< largest distance of a regrown node from where the skeleton has it
   std::vector<skeleton3d::SuspectClick> suspects;  ///< left out, since no camera explains them
+  std::vector<std::string> notes;       ///< what is not as a user may expect, a sentence each
   std::vector<std::string> files;       ///< written, relative to the folder, in the order they were made
 };
 
