@@ -29,6 +29,7 @@ struct Output {
   std::vector<std::string> files = {};
   std::vector<std::string> notes = {};
 
+  bool has(const std::string& name) const { return std::find(files.begin(), files.end(), name) != files.end(); }
   Result<void> write(const std::string& name, const std::string& content) {
     files.push_back(name);
     return writeFile(staging.path() / name, content);
@@ -82,10 +83,14 @@ Result<std::map<GrammarKind, Grammar>> writeGrammars(Output& output, const Proje
   return grammars;
 }
 
+Result<Growth> growthOf(const Grammar& grammar, const Project& project, const ChainOptions& options) {
+  return simeco::prepareGrowth(grammar, {.seed = project.seed, .watch = options.watch, .turning = options.turning});
+}
+
 /// What the furthest-reaching grammar grows: the predictive one, where there is one.
 Result<simeco::Plant> nextOf(const std::map<GrammarKind, Grammar>& grammars, const Project& project, const ChainOptions& options) {
   const GrammarKind kind = grammars.contains(GrammarKind::Predictive) ? GrammarKind::Predictive : GrammarKind::Initial;
-  const auto growth = simeco::prepareGrowth(grammars.at(kind), {.seed = project.seed, .watch = options.watch, .turning = options.turning});
+  const auto growth = growthOf(grammars.at(kind), project, options);
   if (!growth) return growth.failure();
   return simeco::plantAt(*growth, simeco::completeTime(*growth));
 }
@@ -132,6 +137,52 @@ std::string reportText(const BuildReport& report) {
   return jsonLines(json);
 }
 
+/// The measured plant and what it grows into, seen by one camera, so that all pictures can be laid over each other.
+struct Grown {
+  Growth growth;
+  simeco::Plant plant;
+  render::PlantMesh mesh;
+  render::PlantMesh next;
+  skeleton3d::Camera camera;
+};
+
+Result<Grown> grow(const std::map<GrammarKind, Grammar>& grammars, const Project& project, const BuildOptions& options) {
+  const auto growth = growthOf(grammars.at(GrammarKind::Initial), project, options.chain);
+  if (!growth) return growth.failure();
+  auto plant = simeco::plantAt(*growth, simeco::completeTime(*growth));
+  if (!plant) return plant.failure();
+  const auto next = nextOf(grammars, project, options.chain);
+  if (!next) return next.failure();
+  auto mesh = render::meshOf(*plant);
+  if (!mesh) return mesh.failure();
+  auto nextMesh = render::meshOf(*next);
+  if (!nextMesh) return nextMesh.failure();
+  const auto camera = render::cameraFitting(*nextMesh, render::ViewPreset::ThreeQuarter, options.width, options.height);
+  return Grown{*growth, std::move(*plant), std::move(*mesh), std::move(*nextMesh), camera};
+}
+
+Result<void> draw(Output& output, const Grown& grown, const BuildOptions& options) {
+  if (auto written = writePicture(output, "plant.png", grown.mesh, grown.camera, options); !written) return written;
+  if (output.has("predictive.simeco"))
+    if (auto written = writePicture(output, "predicted.png", grown.next, grown.camera, options); !written) return written;
+  return writeGrowth(output, grown.growth, grown.camera, options);
+}
+
+Result<void> writeMesh(Output& output, const render::PlantMesh& mesh, const std::string& unit) {
+  const auto glb = render::glbBytes(mesh, {.metresPerUnit = metresPer(unit)});
+  if (!glb) return glb.failure();
+  return output.write("plant.glb", *glb);
+}
+
+Result<BuildReport> finish(Output& output, BuildReport report) {
+  output.files.emplace_back("report.json");
+  report.files = output.files;
+  report.notes = output.notes;
+  if (auto written = writeFile(output.staging.path() / "report.json", reportText(report)); !written) return written.failure();
+  if (auto published = output.staging.publish(); !published) return published.failure();
+  return report;
+}
+
 BuildReport reportOn(const Project& project, const Skeleton& skeleton, const quantify::Measurements& measurements, const simeco::Plant& plant) {
   BuildReport report;
   report.name = project.name;
@@ -149,7 +200,6 @@ BuildReport reportOn(const Project& project, const Skeleton& skeleton, const qua
 }  // namespace
 
 Result<BuildReport> build(const OpenProject& open, const fs::path& folder, const BuildOptions& options) {
-  const Watch& watch = options.chain.watch;
   const auto clicks = measured(open, options.chain);
   if (!clicks) return clicks.failure();
   const auto skeleton = skeletonOf(open.project, *clicks, options.chain);
@@ -161,42 +211,18 @@ Result<BuildReport> build(const OpenProject& open, const fs::path& folder, const
   Output output{std::move(*staging)};
   if (auto w = output.write("skeleton.json", skeletonText(*skeleton)); !w) return w.failure();
   if (auto w = output.write("stems.csv", quantify::segmentsCsv(*measurements)); !w) return w.failure();
-
-  watch.report("writing the grammars", 0.1);
-  auto grammars = writeGrammars(output, open.project, *measurements, options.chain);
+  options.chain.watch.report("writing the grammars", 0.1);
+  const auto grammars = writeGrammars(output, open.project, *measurements, options.chain);
   if (!grammars) return grammars.failure();
-
-  watch.report("growing", 0.2);
-  const auto growth = simeco::prepareGrowth(grammars->at(GrammarKind::Initial), {.seed = open.project.seed, .watch = watch, .turning = options.chain.turning});
-  if (!growth) return growth.failure();
-  const auto plant = simeco::plantAt(*growth, simeco::completeTime(*growth));
-  if (!plant) return plant.failure();
-  const auto next = nextOf(*grammars, open.project, options.chain);
-  if (!next) return next.failure();
-  const auto mesh = render::meshOf(*plant);
-  if (!mesh) return mesh.failure();
-  const auto nextMesh = render::meshOf(*next);
-  if (!nextMesh) return nextMesh.failure();
-  // Everything is seen by one camera, so that the pictures can be laid over each other.
-  const auto camera = render::cameraFitting(*nextMesh, render::ViewPreset::ThreeQuarter, options.width, options.height);
-
-  watch.report("drawing", 0.3);
-  if (auto w = writePicture(output, "plant.png", *mesh, camera, options); !w) return w.failure();
-  if (grammars->contains(GrammarKind::Predictive))
-    if (auto w = writePicture(output, "predicted.png", *nextMesh, camera, options); !w) return w.failure();
-  if (auto w = writeGrowth(output, *growth, camera, options); !w) return w.failure();
-  const auto glb = render::glbBytes(*mesh, {.metresPerUnit = metresPer(open.project.unit)});
-  if (!glb) return glb.failure();
-  if (auto w = output.write("plant.glb", *glb); !w) return w.failure();
-
-  BuildReport report = reportOn(open.project, *skeleton, *measurements, *plant);
+  options.chain.watch.report("growing", 0.2);
+  const auto grown = grow(*grammars, open.project, options);
+  if (!grown) return grown.failure();
+  options.chain.watch.report("drawing", 0.3);
+  if (auto w = draw(output, *grown, options); !w) return w.failure();
+  if (auto w = writeMesh(output, grown->mesh, open.project.unit); !w) return w.failure();
+  BuildReport report = reportOn(open.project, *skeleton, *measurements, grown->plant);
   report.suspects = clicks->suspects;
-  output.files.emplace_back("report.json");
-  report.files = output.files;
-  report.notes = output.notes;
-  if (auto w = writeFile(output.staging.path() / "report.json", reportText(report)); !w) return w.failure();
-  if (auto published = output.staging.publish(); !published) return published.failure();
-  return report;
+  return finish(output, std::move(report));
 }
 
 }  // namespace axil::document
