@@ -1,10 +1,4 @@
 // What is wrong with a SimEco grammar that parsed. Every finding stands at the place that the author has to change.
-#include "base/text.hpp"
-#include "simeco/language.hpp"
-#include "simeco/lsystem_language.hpp"
-#include "simeco/report.hpp"
-#include "simeco/vocabulary.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +7,12 @@
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
+
+#include "base/text.hpp"
+#include "simeco/language.hpp"
+#include "simeco/lsystem_language.hpp"
+#include "simeco/report.hpp"
+#include "simeco/vocabulary.hpp"
 
 namespace axil::simeco {
 
@@ -33,20 +33,34 @@ const Name* nameIn(const Grammar& grammar, ExprId id) { return id.valid() ? std:
 
 double valueOf(BinaryOp op, double a, double b) {
   switch (op) {
-    case BinaryOp::Add: return a + b;
-    case BinaryOp::Subtract: return a - b;
-    case BinaryOp::Multiply: return a * b;
-    case BinaryOp::Divide: return a / b;
-    case BinaryOp::Remainder: return std::fmod(a, b);
-    case BinaryOp::Power: return std::pow(a, b);
-    case BinaryOp::Less: return a < b ? 1 : 0;
-    case BinaryOp::LessEqual: return a <= b ? 1 : 0;
-    case BinaryOp::Greater: return a > b ? 1 : 0;
-    case BinaryOp::GreaterEqual: return a >= b ? 1 : 0;
-    case BinaryOp::Equal: return a == b ? 1 : 0;
-    case BinaryOp::NotEqual: return a != b ? 1 : 0;
-    case BinaryOp::And: return a != 0 && b != 0 ? 1 : 0;
-    case BinaryOp::Or: return a != 0 || b != 0 ? 1 : 0;
+    case BinaryOp::Add:
+      return a + b;
+    case BinaryOp::Subtract:
+      return a - b;
+    case BinaryOp::Multiply:
+      return a * b;
+    case BinaryOp::Divide:
+      return a / b;
+    case BinaryOp::Remainder:
+      return std::fmod(a, b);
+    case BinaryOp::Power:
+      return std::pow(a, b);
+    case BinaryOp::Less:
+      return a < b ? 1 : 0;
+    case BinaryOp::LessEqual:
+      return a <= b ? 1 : 0;
+    case BinaryOp::Greater:
+      return a > b ? 1 : 0;
+    case BinaryOp::GreaterEqual:
+      return a >= b ? 1 : 0;
+    case BinaryOp::Equal:
+      return a == b ? 1 : 0;
+    case BinaryOp::NotEqual:
+      return a != b ? 1 : 0;
+    case BinaryOp::And:
+      return a != 0 && b != 0 ? 1 : 0;
+    case BinaryOp::Or:
+      return a != 0 || b != 0 ? 1 : 0;
   }
   return 0;
 }
@@ -59,23 +73,23 @@ class Folder {
   [[nodiscard]] std::optional<double> at(ExprId id, int depth = 0) const {
     if (depth > kMostDepth) return std::nullopt;
     using Value = std::optional<double>;
-    return std::visit(overloaded{[](const Number& n) -> Value { return n.value; },
-                                 [&](const Name& n) -> Value { return n.name == parameter_ ? Value(value_) : std::nullopt; },
-                                 [](const Text&) -> Value { return std::nullopt; },
-                                 [&](const Unary& n) -> Value {
-                                   const Value v = at(n.operand, depth + 1);
-                                   if (!v) return std::nullopt;
-                                   return n.op == UnaryOp::Minus ? -*v : (*v == 0 ? 1.0 : 0.0);
-                                 },
-                                 [&](const Binary& n) -> Value {
-                                   const Value a = at(n.left, depth + 1);
-                                   const Value b = at(n.right, depth + 1);
-                                   return a && b ? Value(valueOf(n.op, *a, *b)) : std::nullopt;
-                                 },
-                                 [&](const Chain& n) -> Value { return chain(n, depth); },
-                                 [](const Conditional&) -> Value { return std::nullopt; }, [](const Call&) -> Value { return std::nullopt; },
-                                 [](const Element&) -> Value { return std::nullopt; }},
-                      grammar_.at(id).node);
+    return std::visit(
+        overloaded{[](const Number& n) -> Value { return n.value; },
+                   [&](const Name& n) -> Value { return n.name == parameter_ ? Value(value_) : std::nullopt; },
+                   [](const Text&) -> Value { return std::nullopt; },
+                   [&](const Unary& n) -> Value {
+                     const Value v = at(n.operand, depth + 1);
+                     if (!v) return std::nullopt;
+                     return n.op == UnaryOp::Minus ? -*v : (*v == 0 ? 1.0 : 0.0);
+                   },
+                   [&](const Binary& n) -> Value {
+                     const Value a = at(n.left, depth + 1);
+                     const Value b = at(n.right, depth + 1);
+                     return a && b ? Value(valueOf(n.op, *a, *b)) : std::nullopt;
+                   },
+                   [&](const Chain& n) -> Value { return chain(n, depth); }, [](const Conditional&) -> Value { return std::nullopt; },
+                   [](const Call&) -> Value { return std::nullopt; }, [](const Element&) -> Value { return std::nullopt; }},
+        grammar_.at(id).node);
   }
 
  private:
@@ -95,10 +109,10 @@ class Folder {
 
 /// What the rules of one plant do with one letter.
 struct LetterUse {
-  std::unordered_set<double> made;      ///< numbers that an axiom or successor writes
-  bool madeByValue = false;             ///< ... and that it computes, so that any may come
-  std::unordered_set<double> asked;     ///< numbers that a predecessor or context names
-  bool askedInContext = false;          ///< a context takes any number
+  std::unordered_set<double> made;         ///< numbers that an axiom or successor writes
+  bool madeByValue = false;                ///< ... and that it computes, so that any may come
+  std::unordered_set<double> asked;        ///< numbers that a predecessor or context names
+  bool askedInContext = false;             ///< a context takes any number
   std::vector<const Production*> general;  ///< rules whose predecessor takes any number
 };
 
@@ -136,7 +150,8 @@ class Checker {
       report_.error(where, feature + " need SimEco 1.1", "begin the file with: EcoSystem 1.1");
   }
   void oneLine(std::string_view words, SourceSpan where, const char* what) {
-    if (words.find_first_of("\n\r") != std::string_view::npos) report_.error(where, std::string(what) + " has a line break", "write it on one line");
+    if (words.find_first_of("\n\r") != std::string_view::npos)
+      report_.error(where, std::string(what) + " has a line break", "write it on one line");
   }
 
   // ---- attributes ----
@@ -155,7 +170,8 @@ class Checker {
     if (word == words.end()) return unknownAttribute(a, place);
     if (word->since11) since11("attributes such as '" + a.name + "'", a.where);
     if (!word->warning.empty()) report_.warning(a.where, "'" + a.name + "' is read, but " + std::string(word->warning));
-    if ((word->places & place) == 0) report_.warning(a.where, "'" + a.name + "' has no effect here", "it belongs into " + placesOf(word->places));
+    if ((word->places & place) == 0)
+      report_.warning(a.where, "'" + a.name + "' has no effect here", "it belongs into " + placesOf(word->places));
     value(a, word->kind);
   }
   void unknownAttribute(const Attribute& a, Place place) {
@@ -186,12 +202,16 @@ class Checker {
       case ValueKind::Words:
         if (!std::holds_alternative<Text>(expr.node)) wants("a text in quotes, for example \"leaf.i\"");
         return;
-      case ValueKind::Vector: return wantsCall("vector", "a vector(x, y, z)");
-      case ValueKind::Colour: return wantsCall("RGBA", "a colour RGBA(red, green, blue, alpha)");
-      case ValueKind::Material: return wantsCall("MTRL", "a material MTRL(...) of six numbers");
+      case ValueKind::Vector:
+        return wantsCall("vector", "a vector(x, y, z)");
+      case ValueKind::Colour:
+        return wantsCall("RGBA", "a colour RGBA(red, green, blue, alpha)");
+      case ValueKind::Material:
+        return wantsCall("MTRL", "a material MTRL(...) of six numbers");
       case ValueKind::Number:
       case ValueKind::NotNegative:
-      case ValueKind::Positive: return number(a, kind);
+      case ValueKind::Positive:
+        return number(a, kind);
     }
   }
   void number(const Attribute& a, ValueKind kind) {
@@ -230,7 +250,8 @@ class Checker {
     std::unordered_set<int> numbers;
     for (const Stage& s : o.stages) {
       if (!numbers.insert(s.number).second)
-        report_.error(s.where, std::string(keywordOf(o.kind)) + " has a second Stage " + std::to_string(s.number), "give it another number");
+        report_.error(s.where, std::string(keywordOf(o.kind)) + " has a second Stage " + std::to_string(s.number),
+                      "give it another number");
       if (s.number < 0) report_.error(s.where, "a stage's number must not be negative");
       attributes(s.attributes, InOrgan);
     }
@@ -260,8 +281,10 @@ class Checker {
       for (const Module& m : p.predecessor) {
         if (m.arguments.empty()) continue;
         LetterUse& use = uses_[m.letter];
-        if (const Number* number = numberIn(grammar_, m.arguments[0])) use.asked.insert(number->value);
-        else use.general.push_back(&p);
+        if (const Number* number = numberIn(grammar_, m.arguments[0]))
+          use.asked.insert(number->value);
+        else
+          use.general.push_back(&p);
       }
       for (const Successor& s : p.successors)
         for (const Module& m : s.modules) gatherMade(m);
@@ -270,14 +293,18 @@ class Checker {
   void gatherMade(const Module& m) {
     LetterUse& use = uses_[m.letter];
     const Number* number = m.arguments.empty() ? nullptr : numberIn(grammar_, m.arguments[0]);
-    if (number) use.made.insert(number->value);
-    else use.madeByValue = true;
+    if (number)
+      use.made.insert(number->value);
+    else
+      use.madeByValue = true;
   }
   void gatherContext(const Module& m) {
     if (m.arguments.empty()) return;
     LetterUse& use = uses_[m.letter];
-    if (const Number* number = numberIn(grammar_, m.arguments[0])) use.asked.insert(number->value);
-    else use.askedInContext = true;
+    if (const Number* number = numberIn(grammar_, m.arguments[0]))
+      use.asked.insert(number->value);
+    else
+      use.askedInContext = true;
   }
 
   /// Whether some rule rewrites, or looks for, `letter(number)`.
@@ -334,7 +361,8 @@ class Checker {
     const SourceSpan where = rules.axiom.empty() ? SourceSpan{} : rules.axiom.front().where;
     if (rules.seed || rules.derivationLength || rules.ring) since11("seed, steps and ring", where);
     if (rules.filter.mode != ContextFilter::Mode::None) since11("ignore and consider", where);
-    if (rules.decomposition || rules.homomorphism || !rules.interaction.empty()) since11("decomposition, homomorphism and interaction", where);
+    if (rules.decomposition || rules.homomorphism || !rules.interaction.empty())
+      since11("decomposition, homomorphism and interaction", where);
     if (!rules.arrays.empty() || !rules.externals.empty()) since11("arrays and external names", where);
     for (const std::string& letter : rules.filter.letters) known(letter, where);
     if (rules.derivationLength) expression(*rules.derivationLength, {});
@@ -377,7 +405,8 @@ class Checker {
         const Name* name = nameIn(grammar_, argument);
         if (!name) continue;
         if (std::find(names.begin(), names.end(), name->name) != names.end())
-          report_.error(grammar_.at(argument).where, "'" + name->name + "' is bound a second time", "use another name and compare the two in a condition");
+          report_.error(grammar_.at(argument).where, "'" + name->name + "' is bound a second time",
+                        "use another name and compare the two in a condition");
         names.push_back(name->name);
       }
     }
@@ -392,7 +421,8 @@ class Checker {
         letter(m);
         for (const ExprId argument : m.arguments)
           if (!nameIn(grammar_, argument) && !numberIn(grammar_, argument))
-            report_.error(grammar_.at(argument).where, "before '->' an argument is a name or a number", "compute it after '->', or compare it in a condition");
+            report_.error(grammar_.at(argument).where, "before '->' an argument is a name or a number",
+                          "compute it after '->', or compare it in a condition");
       }
     }
     brackets(p.left);
@@ -417,8 +447,10 @@ class Checker {
     if (p.successors.size() > 1) since11("several successors", p.where);
     if (p.successors.size() > 1 && weights < p.successors.size())
       report_.error(p.where, "each of several successors needs its weight", "for example: A(i) -> 0.7: S(i) | 0.3: L(1) ;");
-    if (weights == p.successors.size() && weights > 0 && allKnown && !(sum > 0)) report_.error(p.where, "all weights of the rule are 0", "give one of them more");
-    if (p.successors.size() == 1 && weights == 1) report_.warning(p.where, "a weight has no effect where there is one successor", "add another one after '|'");
+    if (weights == p.successors.size() && weights > 0 && allKnown && !(sum > 0))
+      report_.error(p.where, "all weights of the rule are 0", "give one of them more");
+    if (p.successors.size() == 1 && weights == 1)
+      report_.warning(p.where, "a weight has no effect where there is one successor", "add another one after '|'");
   }
 
   // ---- modules ----
@@ -453,7 +485,10 @@ class Checker {
     const bool tooFew = count < word->fewest;
     const int bound = tooFew ? word->fewest : word->most;
     const std::string least = word->fewest == word->most ? "" : tooFew ? "at least " : "at most ";
-    report_.error(m.where, "'" + m.letter + "' takes " + least + std::to_string(bound) + (bound == 1 ? " argument" : " arguments") + ", not " + std::to_string(count), argumentHint(m.letter));
+    report_.error(m.where,
+                  "'" + m.letter + "' takes " + least + std::to_string(bound) + (bound == 1 ? " argument" : " arguments") + ", not " +
+                      std::to_string(count),
+                  argumentHint(m.letter));
   }
   static std::string argumentHint(const std::string& letter) {
     if (letter == "rotr" || letter == "rotu") return "an angle in radians, for example " + letter + "(0.5)";
@@ -464,8 +499,10 @@ class Checker {
     for (const Module& m : list) {
       if (m.letter == "[") open.push_back(&m);
       if (m.letter != "]") continue;
-      if (open.empty()) report_.error(m.where, "']' closes no branch", "remove it, or write the '[' where the branch starts");
-      else open.pop_back();
+      if (open.empty())
+        report_.error(m.where, "']' closes no branch", "remove it, or write the '[' where the branch starts");
+      else
+        open.pop_back();
     }
     for (const Module* m : open) report_.error(m->where, "the branch that starts here is never closed", "write ']' where it ends");
   }
@@ -479,7 +516,8 @@ class Checker {
     const std::string said = printModule(grammar_, m);
     if (*kind == OrganKind::Apex && found == stages_.end())
       return report_.warning(m.where, "no rule rewrites " + said + ": growth ends here", "add a rule " + said + " -> ... ;");
-    report_.error(m.where, "unknown stage: " + std::string(keywordOf(*kind)) + " has no Stage " + textOf(*number) + " and no rule rewrites " + said,
+    report_.error(m.where,
+                  "unknown stage: " + std::string(keywordOf(*kind)) + " has no Stage " + textOf(*number) + " and no rule rewrites " + said,
                   found == stages_.end() ? std::string(keywordOf(*kind)) + " has no stages at all" : stageHint(found->second));
   }
   static std::string stageHint(const std::set<double>& numbers) {
@@ -574,13 +612,15 @@ class Checker {
     const auto words = functionWords();
     const auto word = std::find_if(words.begin(), words.end(), [&](const FunctionWord& w) { return w.name == n.function; });
     if (word == words.end()) return report_.error(where, "unknown function '" + n.function + "'", didYouMean(n.function, functionNames_));
-    if (word->since11) since11(n.function == "random" || n.function == "normal" ? "random numbers" : "functions such as " + n.function, where);
+    if (word->since11)
+      since11(n.function == "random" || n.function == "normal" ? "random numbers" : "functions such as " + n.function, where);
     const auto count = static_cast<int>(n.arguments.size());
     if (count >= word->fewest && (word->most < 0 || count <= word->most)) {
       return;
     }
     const std::string wanted = (word->fewest == word->most ? "" : "at least ") + std::to_string(word->fewest);
-    report_.error(where, "'" + n.function + "' takes " + wanted + (word->fewest == 1 ? " argument" : " arguments") + ", not " + std::to_string(count));
+    report_.error(where, "'" + n.function + "' takes " + wanted + (word->fewest == 1 ? " argument" : " arguments") + ", not " +
+                             std::to_string(count));
   }
 
   // ---- what nothing ever reaches ----
@@ -593,7 +633,8 @@ class Checker {
       if (p.predecessor.size() != 1) continue;
       const Module& m = p.predecessor[0];
       if (isShadowed(m, exact, general)) {
-        report_.warning(p.where, "the rule never fires: a rule above rewrites every " + printModule(grammar_, m), "move it up, or for a choice write both successors in one rule with weights");
+        report_.warning(p.where, "the rule never fires: a rule above rewrites every " + printModule(grammar_, m),
+                        "move it up, or for a choice write both successors in one rule with weights");
         continue;
       }
       if (isNeverMade(m)) report_.warning(p.where, "the rule never fires: nothing makes " + printModule(grammar_, m));
@@ -637,7 +678,8 @@ class Checker {
       if (use.madeByValue) continue;
       for (const Stage& s : o.stages)
         if (!use.made.contains(s.number))
-          report_.warning(s.where, std::string(keywordOf(o.kind)) + " Stage " + std::to_string(s.number) + " is never used", "no rule makes " + std::string(letterOf(o.kind)) + "(" + std::to_string(s.number) + ")");
+          report_.warning(s.where, std::string(keywordOf(o.kind)) + " Stage " + std::to_string(s.number) + " is never used",
+                          "no rule makes " + std::string(letterOf(o.kind)) + "(" + std::to_string(s.number) + ")");
     }
   }
 

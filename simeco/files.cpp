@@ -1,13 +1,13 @@
 #include "base/files.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "base/text.hpp"
 #include "simeco/language.hpp"
 #include "simeco/lsystem_language.hpp"
 #include "simeco/report.hpp"
 #include "simeco/vocabulary.hpp"
-
-#include <algorithm>
-#include <iterator>
 
 namespace axil::simeco {
 

@@ -1,11 +1,11 @@
 #include "simeco/grammar.hpp"
 
-#include "base/text.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
+
+#include "base/text.hpp"
 
 namespace axil::simeco {
 
@@ -61,7 +61,9 @@ class Comparer {
     return a.array == b.array && same(a.indices, b.indices) && same(a.value, b.value);
   }
   [[nodiscard]] bool same(const Evaluate& a, const Evaluate& b) const { return same(a.value, b.value); }
-  [[nodiscard]] bool same(const If& a, const If& b) const { return same(a.condition, b.condition) && same(a.yes, b.yes) && same(a.no, b.no); }
+  [[nodiscard]] bool same(const If& a, const If& b) const {
+    return same(a.condition, b.condition) && same(a.yes, b.yes) && same(a.no, b.no);
+  }
   [[nodiscard]] bool same(const While& a, const While& b) const {
     return a.testFirst == b.testFirst && same(a.condition, b.condition) && same(a.body, b.body);
   }
@@ -82,11 +84,11 @@ class Comparer {
            same(a.productions, b.productions);
   }
   [[nodiscard]] bool same(const RuleSet& a, const RuleSet& b) const {
-    return labelOf(a) == labelOf(b) && same(a.axiom, b.axiom) && same(a.productions, b.productions) && same(a.decomposition, b.decomposition) &&
-           same(a.homomorphism, b.homomorphism) && same(a.interaction, b.interaction) && a.filter == b.filter && a.ring == b.ring &&
-           a.seed == b.seed && same(a.derivationLength, b.derivationLength) && same(a.arrays, b.arrays) && a.externals == b.externals &&
-           same(a.start, b.start) && same(a.startEach, b.startEach) && same(a.endEach, b.endEach) && same(a.end, b.end) &&
-           a.axiomComments == b.axiomComments && a.comments == b.comments;
+    return labelOf(a) == labelOf(b) && same(a.axiom, b.axiom) && same(a.productions, b.productions) &&
+           same(a.decomposition, b.decomposition) && same(a.homomorphism, b.homomorphism) && same(a.interaction, b.interaction) &&
+           a.filter == b.filter && a.ring == b.ring && a.seed == b.seed && same(a.derivationLength, b.derivationLength) &&
+           same(a.arrays, b.arrays) && a.externals == b.externals && same(a.start, b.start) && same(a.startEach, b.startEach) &&
+           same(a.endEach, b.endEach) && same(a.end, b.end) && a.axiomComments == b.axiomComments && a.comments == b.comments;
   }
 
   [[nodiscard]] bool same(const Attribute& a, const Attribute& b) const {
@@ -104,7 +106,9 @@ class Comparer {
   }
 
   /// An axiom without a name is `w`.
-  static std::string_view labelOf(const RuleSet& rules) { return rules.label.empty() ? std::string_view("w") : std::string_view(rules.label); }
+  static std::string_view labelOf(const RuleSet& rules) {
+    return rules.label.empty() ? std::string_view("w") : std::string_view(rules.label);
+  }
 
   const Grammar& a_;
   const Grammar& b_;
@@ -167,7 +171,8 @@ ConditionPlace placeOfCondition(const Grammar& grammar, const Production& produc
     return ConditionPlace::AfterColon;
   const auto holds = [](const Module& module) { return module.letter != "[" && module.letter != "]"; };
   if (production.conditionPlace == ConditionPlace::InPredecessor)
-    return !production.predecessor.empty() && holds(production.predecessor.back()) ? ConditionPlace::InPredecessor : ConditionPlace::AfterColon;
+    return !production.predecessor.empty() && holds(production.predecessor.back()) ? ConditionPlace::InPredecessor
+                                                                                   : ConditionPlace::AfterColon;
   const bool inSuccessor = production.successors.size() == 1 &&
                            std::any_of(production.successors[0].modules.begin(), production.successors[0].modules.end(), holds);
   return inSuccessor ? ConditionPlace::InSuccessor : ConditionPlace::AfterColon;

@@ -8,14 +8,14 @@
 /// stands: arenas in another order, spans and blanks do not matter, comments do.
 /// Sources: L-Grammar Generator 2005, section 3.4 and appendix (SimEco); RTIL-system 2010 (L-systems); docs/simeco.md.
 
-#include "base/ids.hpp"
-#include "base/source.hpp"
-
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "base/ids.hpp"
+#include "base/source.hpp"
 
 namespace axil::simeco {
 
@@ -198,24 +198,24 @@ struct SubRules {
 
 /// One L-system: axiom and productions, and what the classic language adds.
 struct RuleSet {
-  std::string label;                       ///< "w" in SimEco; a number names a sub-L-system
+  std::string label;  ///< "w" in SimEco; a number names a sub-L-system
   std::vector<Module> axiom;
-  std::vector<Production> productions;     ///< first match in this order fires
+  std::vector<Production> productions;  ///< first match in this order fires
   std::optional<SubRules> decomposition;
   std::optional<SubRules> homomorphism;
-  std::vector<Production> interaction;     ///< RTIL: rules for selected modules only
+  std::vector<Production> interaction;  ///< RTIL: rules for selected modules only
   ContextFilter filter;
   bool ring = false;
   std::optional<std::uint64_t> seed;       ///< classic language: given = stochastic choice is on
   std::optional<ExprId> derivationLength;  ///< none: until nothing changes (SimEco)
   std::vector<ArrayDeclaration> arrays;
-  std::vector<std::string> externals;      ///< variables taken from the calling L-system
+  std::vector<std::string> externals;  ///< variables taken from the calling L-system
   Block start;
   Block startEach;
   Block endEach;
   Block end;
   Comments axiomComments;
-  Comments comments;                       ///< of the whole block (SimEco's Grow)
+  Comments comments;  ///< of the whole block (SimEco's Grow)
 };
 
 // ---- plants ----------------------------------------------------------------------------------------------------------
@@ -271,8 +271,8 @@ struct Grammar {
   std::vector<Attribute> attributes;
   std::vector<PlantGrammar> plants;
   std::vector<Expr> expressions;
-  Comments comments;                      ///< `before` heads the file
-  std::vector<std::string> closing;       ///< comments after the last brace
+  Comments comments;                 ///< `before` heads the file
+  std::vector<std::string> closing;  ///< comments after the last brace
 
   ExprId add(ExprNode node, SourceSpan where = {});
   [[nodiscard]] const Expr& at(ExprId id) const { return expressions[static_cast<std::size_t>(id.value)]; }

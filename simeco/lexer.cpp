@@ -1,9 +1,9 @@
 #include "simeco/lexer.hpp"
 
-#include "base/text.hpp"
-
 #include <string>
 #include <utility>
+
+#include "base/text.hpp"
 
 namespace axil::simeco {
 
@@ -163,26 +163,46 @@ TokenKind Lexer::scanWide() {
   if (plain == '\0') return scanWord();
   const std::size_t begin = position_;
   position_ += utf8Length(rest[0]);
-  report(from(begin), "'" + std::string(rest.substr(0, position_ - begin)) + "' is the wide form of a sign", std::string("write '") + plain + "'");
+  report(from(begin), "'" + std::string(rest.substr(0, position_ - begin)) + "' is the wide form of a sign",
+         std::string("write '") + plain + "'");
   switch (plain) {
-    case '(': return TokenKind::LeftParen;
-    case ')': return TokenKind::RightParen;
-    case '[': return TokenKind::LeftBracket;
-    case ']': return TokenKind::RightBracket;
-    case '{': return TokenKind::LeftBrace;
-    case '}': return TokenKind::RightBrace;
-    case ';': return TokenKind::Semicolon;
-    case ',': return TokenKind::Comma;
-    case ':': return TokenKind::Colon;
-    case '=': return TokenKind::Assign;
-    case '+': return TokenKind::Plus;
-    case '-': return TokenKind::Minus;
-    case '*': return TokenKind::Star;
-    case '/': return TokenKind::Slash;
-    case '<': return TokenKind::Less;
-    case '>': return TokenKind::Greater;
-    case '"': return finishWideText();
-    default: position_ = begin; return TokenKind::End;
+    case '(':
+      return TokenKind::LeftParen;
+    case ')':
+      return TokenKind::RightParen;
+    case '[':
+      return TokenKind::LeftBracket;
+    case ']':
+      return TokenKind::RightBracket;
+    case '{':
+      return TokenKind::LeftBrace;
+    case '}':
+      return TokenKind::RightBrace;
+    case ';':
+      return TokenKind::Semicolon;
+    case ',':
+      return TokenKind::Comma;
+    case ':':
+      return TokenKind::Colon;
+    case '=':
+      return TokenKind::Assign;
+    case '+':
+      return TokenKind::Plus;
+    case '-':
+      return TokenKind::Minus;
+    case '*':
+      return TokenKind::Star;
+    case '/':
+      return TokenKind::Slash;
+    case '<':
+      return TokenKind::Less;
+    case '>':
+      return TokenKind::Greater;
+    case '"':
+      return finishWideText();
+    default:
+      position_ = begin;
+      return TokenKind::End;
   }
 }
 
@@ -202,29 +222,52 @@ TokenKind Lexer::scanSign() {
   };
   const char second = at(position_ + 1);
   switch (text_[position_]) {
-    case '{': return take(1, TokenKind::LeftBrace);
-    case '}': return take(1, TokenKind::RightBrace);
-    case '(': return take(1, TokenKind::LeftParen);
-    case ')': return take(1, TokenKind::RightParen);
-    case '[': return take(1, TokenKind::LeftBracket);
-    case ']': return take(1, TokenKind::RightBracket);
-    case ',': return take(1, TokenKind::Comma);
-    case ';': return take(1, TokenKind::Semicolon);
-    case ':': return take(1, TokenKind::Colon);
-    case '+': return take(1, TokenKind::Plus);
-    case '*': return take(1, TokenKind::Star);
-    case '/': return take(1, TokenKind::Slash);
-    case '%': return take(1, TokenKind::Percent);
-    case '^': return take(1, TokenKind::Caret);
-    case '?': return take(1, TokenKind::Question);
-    case '-': return second == '>' ? take(2, TokenKind::Arrow) : take(1, TokenKind::Minus);
-    case '=': return second == '=' ? take(2, TokenKind::Equal) : take(1, TokenKind::Assign);
-    case '!': return second == '=' ? take(2, TokenKind::NotEqual) : take(1, TokenKind::Not);
-    case '<': return second == '=' ? take(2, TokenKind::LessEqual) : take(1, TokenKind::Less);
-    case '>': return second == '=' ? take(2, TokenKind::GreaterEqual) : take(1, TokenKind::Greater);
-    case '|': return second == '|' ? take(2, TokenKind::OrOr) : take(1, TokenKind::Bar);
-    case '&': return second == '&' ? take(2, TokenKind::AndAnd) : TokenKind::End;
-    default: return TokenKind::End;
+    case '{':
+      return take(1, TokenKind::LeftBrace);
+    case '}':
+      return take(1, TokenKind::RightBrace);
+    case '(':
+      return take(1, TokenKind::LeftParen);
+    case ')':
+      return take(1, TokenKind::RightParen);
+    case '[':
+      return take(1, TokenKind::LeftBracket);
+    case ']':
+      return take(1, TokenKind::RightBracket);
+    case ',':
+      return take(1, TokenKind::Comma);
+    case ';':
+      return take(1, TokenKind::Semicolon);
+    case ':':
+      return take(1, TokenKind::Colon);
+    case '+':
+      return take(1, TokenKind::Plus);
+    case '*':
+      return take(1, TokenKind::Star);
+    case '/':
+      return take(1, TokenKind::Slash);
+    case '%':
+      return take(1, TokenKind::Percent);
+    case '^':
+      return take(1, TokenKind::Caret);
+    case '?':
+      return take(1, TokenKind::Question);
+    case '-':
+      return second == '>' ? take(2, TokenKind::Arrow) : take(1, TokenKind::Minus);
+    case '=':
+      return second == '=' ? take(2, TokenKind::Equal) : take(1, TokenKind::Assign);
+    case '!':
+      return second == '=' ? take(2, TokenKind::NotEqual) : take(1, TokenKind::Not);
+    case '<':
+      return second == '=' ? take(2, TokenKind::LessEqual) : take(1, TokenKind::Less);
+    case '>':
+      return second == '=' ? take(2, TokenKind::GreaterEqual) : take(1, TokenKind::Greater);
+    case '|':
+      return second == '|' ? take(2, TokenKind::OrOr) : take(1, TokenKind::Bar);
+    case '&':
+      return second == '&' ? take(2, TokenKind::AndAnd) : TokenKind::End;
+    default:
+      return TokenKind::End;
   }
 }
 

@@ -4,21 +4,48 @@
 /// are kept aside, in order, until the parser asks for them. Bytes that belong to no token are reported once per run.
 /// An editor's colouring reads the same tokens.
 
-#include "base/source.hpp"
-#include "simeco/report.hpp"
-
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
+#include "base/source.hpp"
+#include "simeco/report.hpp"
+
 namespace axil::simeco {
 
 enum class TokenKind : std::uint8_t {
-  End, Word, Number, Text,
-  LeftBrace, RightBrace, LeftParen, RightParen, LeftBracket, RightBracket,
-  Comma, Semicolon, Assign, Colon, Bar, Arrow,
-  Less, LessEqual, Greater, GreaterEqual, Equal, NotEqual,
-  Plus, Minus, Star, Slash, Percent, Caret, AndAnd, OrOr, Not, Question,
+  End,
+  Word,
+  Number,
+  Text,
+  LeftBrace,
+  RightBrace,
+  LeftParen,
+  RightParen,
+  LeftBracket,
+  RightBracket,
+  Comma,
+  Semicolon,
+  Assign,
+  Colon,
+  Bar,
+  Arrow,
+  Less,
+  LessEqual,
+  Greater,
+  GreaterEqual,
+  Equal,
+  NotEqual,
+  Plus,
+  Minus,
+  Star,
+  Slash,
+  Percent,
+  Caret,
+  AndAnd,
+  OrOr,
+  Not,
+  Question,
 };
 
 struct Token {
@@ -63,7 +90,9 @@ class Lexer {
   void skipUnknown();
   void report(SourceSpan span, std::string message, std::string hint);
   [[nodiscard]] char at(std::size_t offset) const { return offset < text_.size() ? text_[offset] : '\0'; }
-  [[nodiscard]] SourceSpan from(std::size_t begin) const { return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(position_)}; }
+  [[nodiscard]] SourceSpan from(std::size_t begin) const {
+    return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(position_)};
+  }
 
   std::string_view text_;
   Report& report_;

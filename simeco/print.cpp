@@ -1,11 +1,11 @@
 // A Grammar as SimEco text, in the layout that the thesis' program writes.
-#include "simeco/language.hpp"
-#include "simeco/lsystem_language.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
+
+#include "simeco/language.hpp"
+#include "simeco/lsystem_language.hpp"
 
 namespace axil::simeco {
 
@@ -21,8 +21,20 @@ struct OperatorText {
   Binding binding;
 };
 // In the order of BinaryOp.
-constexpr std::array<OperatorText, 14> kOperators{{{"+", kSum}, {"-", kSum}, {"*", kProduct}, {"/", kProduct}, {"%", kProduct}, {"^", kPower},
-    {" < ", kCompare}, {" <= ", kCompare}, {" > ", kCompare}, {" >= ", kCompare}, {" == ", kCompare}, {" != ", kCompare}, {" && ", kAnd}, {" || ", kOr}}};
+constexpr std::array<OperatorText, 14> kOperators{{{"+", kSum},
+                                                   {"-", kSum},
+                                                   {"*", kProduct},
+                                                   {"/", kProduct},
+                                                   {"%", kProduct},
+                                                   {"^", kPower},
+                                                   {" < ", kCompare},
+                                                   {" <= ", kCompare},
+                                                   {" > ", kCompare},
+                                                   {" >= ", kCompare},
+                                                   {" == ", kCompare},
+                                                   {" != ", kCompare},
+                                                   {" && ", kAnd},
+                                                   {" || ", kOr}}};
 
 const OperatorText& textOf(BinaryOp op) { return kOperators[static_cast<std::size_t>(op)]; }
 

@@ -1,9 +1,9 @@
 #include "simeco/report.hpp"
 
-#include "base/text.hpp"
-
 #include <algorithm>
 #include <utility>
+
+#include "base/text.hpp"
 
 namespace axil::simeco {
 
@@ -21,12 +21,15 @@ Diagnostic moreLine(SourceSpan at, std::size_t errors, std::size_t warnings) {
 }
 
 void sortByPlace(std::vector<Diagnostic>& diagnostics) {
-  std::stable_sort(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& a, const Diagnostic& b) { return a.span.begin < b.span.begin; });
+  std::stable_sort(diagnostics.begin(), diagnostics.end(),
+                   [](const Diagnostic& a, const Diagnostic& b) { return a.span.begin < b.span.begin; });
 }
 
 }  // namespace
 
-void Report::error(SourceSpan span, std::string message, std::string hint) { add({Severity::Error, span, std::move(message), std::move(hint)}); }
+void Report::error(SourceSpan span, std::string message, std::string hint) {
+  add({Severity::Error, span, std::move(message), std::move(hint)});
+}
 
 void Report::warning(SourceSpan span, std::string message, std::string hint) {
   add({Severity::Warning, span, std::move(message), std::move(hint)});

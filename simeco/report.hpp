@@ -2,13 +2,13 @@
 /// \file
 /// Report: collects what is wrong with a text, up to a stated number, and counts the rest. Internal to the front ends.
 
-#include "base/source.hpp"
-
 #include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/source.hpp"
 
 namespace axil::simeco {
 

@@ -33,20 +33,19 @@ constexpr AttributeWord kAttributes[] = {
 };
 
 constexpr FunctionWord kFunctions[] = {
-    {"vector", 3, 3, false}, {"RGBA", 4, 4, false},  {"MTRL", 6, 6, false},   {"sin", 1, 1, true},
-    {"cos", 1, 1, true},     {"tan", 1, 1, true},    {"asin", 1, 1, true},    {"acos", 1, 1, true},      {"atan", 1, 1, true},
-    {"atan2", 2, 2, true},   {"exp", 1, 1, true},    {"log", 1, 1, true},     {"sqrt", 1, 1, true},      {"abs", 1, 1, true},
-    {"floor", 1, 1, true},   {"ceil", 1, 1, true},   {"round", 1, 1, true},   {"min", 2, 2, true},       {"max", 2, 2, true},
-    {"pow", 2, 2, true},     {"sign", 1, 1, true},   {"random", 2, 2, true},  {"normal", 2, 2, true},    {"func", 1, -1, true},
-    {"com", 1, -1, true},
+    {"vector", 3, 3, false}, {"RGBA", 4, 4, false},  {"MTRL", 6, 6, false},  {"sin", 1, 1, true},   {"cos", 1, 1, true},
+    {"tan", 1, 1, true},     {"asin", 1, 1, true},   {"acos", 1, 1, true},   {"atan", 1, 1, true},  {"atan2", 2, 2, true},
+    {"exp", 1, 1, true},     {"log", 1, 1, true},    {"sqrt", 1, 1, true},   {"abs", 1, 1, true},   {"floor", 1, 1, true},
+    {"ceil", 1, 1, true},    {"round", 1, 1, true},  {"min", 2, 2, true},    {"max", 2, 2, true},   {"pow", 2, 2, true},
+    {"sign", 1, 1, true},    {"random", 2, 2, true}, {"normal", 2, 2, true}, {"func", 1, -1, true}, {"com", 1, -1, true},
 };
 
 // An organ's first argument is its stage; the further ones of version 1.1 are the author's own.
 constexpr LetterWord kLetters[] = {
-    {"A", 1, 20, false}, {"S", 1, 20, false},   {"L", 1, 20, false},   {"R", 1, 20, false}, {"F", 1, 20, false}, {"W", 1, 20, false},
-    {"rotr", 1, 1, false}, {"rotu", 1, 1, false}, {"[", 0, 0, false},   {"]", 0, 0, false},
-    {"?E", 0, 20, true},  // answered by the program around the engine
-    {"%", 0, 0, true},    // cuts the rest of its branch
+    {"A", 1, 20, false},   {"S", 1, 20, false},   {"L", 1, 20, false}, {"R", 1, 20, false}, {"F", 1, 20, false}, {"W", 1, 20, false},
+    {"rotr", 1, 1, false}, {"rotu", 1, 1, false}, {"[", 0, 0, false},  {"]", 0, 0, false},  {"?E", 0, 20, true},  // answered by the program
+                                                                                                                  // around the engine
+    {"%", 0, 0, true},  // cuts the rest of its branch
 };
 
 }  // namespace

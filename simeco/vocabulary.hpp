@@ -2,12 +2,12 @@
 /// \file
 /// Vocabulary: the words that SimEco knows, as tables. Internal; docs/simeco.md is the same for people.
 
-#include "simeco/grammar.hpp"
-
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
+
+#include "simeco/grammar.hpp"
 
 namespace axil::simeco {
 
@@ -37,15 +37,15 @@ struct AttributeWord {
 struct FunctionWord {
   std::string_view name;
   int fewest;
-  int most;        ///< -1: any number
+  int most;  ///< -1: any number
   bool since11;
 };
 [[nodiscard]] std::span<const FunctionWord> functionWords();
 
 struct LetterWord {
   std::string_view letter;
-  int fewest;      ///< arguments
-  int most;        ///< in version 1.1; in 1.0 it is `fewest`
+  int fewest;  ///< arguments
+  int most;    ///< in version 1.1; in 1.0 it is `fewest`
   bool since11;
 };
 [[nodiscard]] std::span<const LetterWord> letterWords();
@@ -57,7 +57,7 @@ inline constexpr std::string_view kVersions[] = {"1.0", "1.1"};
 
 /// Stated limits of the text.
 inline constexpr std::size_t kMostBytes = 100'000'000;
-inline constexpr int kMostDepth = 200;         ///< of nested expressions, statements
-inline constexpr int kMostBrackets = 1000;     ///< of nested branches in one rule
+inline constexpr int kMostDepth = 200;      ///< of nested expressions, statements
+inline constexpr int kMostBrackets = 1000;  ///< of nested branches in one rule
 
 }  // namespace axil::simeco

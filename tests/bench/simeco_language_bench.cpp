@@ -1,7 +1,7 @@
 // The SimEco front end on lantana-like text: parse (goal: 2,000 segments in 15 ms), check, print.
-#include "simeco/language.hpp"
-
 #include <benchmark/benchmark.h>
+
+#include "simeco/language.hpp"
 
 namespace axil::simeco {
 namespace {

@@ -1,11 +1,11 @@
 // The SimEco front end against any bytes: nothing may crash, every diagnostic must stand in the text, and what parses without
 // an error must print as a text that says the same.
-#include "base/text.hpp"
-#include "simeco/language.hpp"
-
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+
+#include "base/text.hpp"
+#include "simeco/language.hpp"
 
 namespace {
 

@@ -1,13 +1,13 @@
 // Properties over printed seeds, and texts that no author would write: cut, mutated, deeply nested, large.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
 #include "base/files.hpp"
 #include "base/rng.hpp"
 #include "simeco/language.hpp"
 #include "simeco/language_random.hpp"
 #include "support/shared_data.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
 
 namespace axil::simeco {
 namespace {
@@ -88,10 +88,18 @@ std::string mutated(std::string text, Rng& rng) {
   for (std::uint64_t i = 1 + rng.below(8); i > 0 && !text.empty(); --i) {
     const std::size_t at = rng.below(text.size());
     switch (rng.below(4)) {
-      case 0: text[at] = signs[rng.below(signs.size())]; break;
-      case 1: text.erase(at, 1 + rng.below(20)); break;
-      case 2: text.insert(at, 1, signs[rng.below(signs.size())]); break;
-      default: text.insert(at, text.substr(rng.below(text.size()), rng.below(60))); break;
+      case 0:
+        text[at] = signs[rng.below(signs.size())];
+        break;
+      case 1:
+        text.erase(at, 1 + rng.below(20));
+        break;
+      case 2:
+        text.insert(at, 1, signs[rng.below(signs.size())]);
+        break;
+      default:
+        text.insert(at, text.substr(rng.below(text.size()), rng.below(60)));
+        break;
     }
   }
   return text;
@@ -128,9 +136,11 @@ std::string repeated(std::string_view piece, std::size_t times) {
 }
 
 TEST(Limit, AMillionOpenSignsAreOneErrorNotADeepStack) {
-  for (const std::string_view sign : {"(", "-", "!", "2^", "1+(", "f(", "a[", "1?", "1?1:", "[", "A(", "{", "// \n", "/* */", "\"", "Stage 1 {", "i < ", "->", "@ a"}) {
+  for (const std::string_view sign :
+       {"(", "-", "!", "2^", "1+(", "f(", "a[", "1?", "1?1:", "[", "A(", "{", "// \n", "/* */", "\"", "Stage 1 {", "i < ", "->", "@ a"}) {
     SCOPED_TRACE(sign);
-    for (const std::string& text : {inAxiom(repeated(sign, 1'000'000)), repeated(sign, 1'000'000), "EcoSystem 1.1 \"e\" { Plant \"p\" { Grow { w = A(0); A(0) : " + repeated(sign, 1'000'000)}) {
+    for (const std::string& text : {inAxiom(repeated(sign, 1'000'000)), repeated(sign, 1'000'000),
+                                    "EcoSystem 1.1 \"e\" { Plant \"p\" { Grow { w = A(0); A(0) : " + repeated(sign, 1'000'000)}) {
       const Parsed parsed = parseSimeco(text);
       const bool closesItself = sign.starts_with('/') || sign == "\"";
       EXPECT_TRUE(closesItself || !parsed.ok());

@@ -38,7 +38,8 @@ class Maker {
   // ---- words ----
 
   std::string words() {
-    static const std::array<std::string, 7> all{"Lantana", "馬櫻丹", "", "a \"quoted\" name", "C:\\plants\\leaf.i", "// not a comment", "{;}"};
+    static const std::array<std::string, 7> all{"Lantana",          "馬櫻丹", "", "a \"quoted\" name", "C:\\plants\\leaf.i",
+                                                "// not a comment", "{;}"};
     return oneOf(all);
   }
   std::string name() {
@@ -50,7 +51,8 @@ class Maker {
     return oneOf(all);
   }
   std::string comment() {
-    static const std::array<std::string, 6> all{"// one line", "/* short */", "/* two\n   lines */", "//", "// 註解 \"with\" {signs};", "/**/"};
+    static const std::array<std::string, 6> all{"// one line", "/* short */", "/* two\n   lines */", "//", "// 註解 \"with\" {signs};",
+                                                "/**/"};
     return oneOf(all);
   }
   std::string lineComment() { return chance(0.8) ? std::string{} : comment(); }
@@ -71,10 +73,14 @@ class Maker {
 
   Number number() {
     switch (rng_.below(5)) {
-      case 0: return fixedNumber(rng_.uniform(-10, 10), upTo(9));
-      case 1: return {static_cast<double>(upTo(2000)), 0};
-      case 2: return {rng_.uniform(-1, 1), -1};
-      case 3: return {rng_.uniform(-1, 1), upTo(6)};  // never rounded: must keep all digits
+      case 0:
+        return fixedNumber(rng_.uniform(-10, 10), upTo(9));
+      case 1:
+        return {static_cast<double>(upTo(2000)), 0};
+      case 2:
+        return {rng_.uniform(-1, 1), -1};
+      case 3:
+        return {rng_.uniform(-1, 1), upTo(6)};  // never rounded: must keep all digits
       default: {
         const double any = std::bit_cast<double>(rng_.bits());
         return {std::isnormal(any) ? any : -0.0, upTo(30) - 1};
@@ -84,15 +90,19 @@ class Maker {
   ExprId expression(int depth = 0) {
     if (depth >= 5 || chance(0.35)) return leaf();
     switch (rng_.below(8)) {
-      case 0: return grammar_.add(Unary{chance(0.5) ? UnaryOp::Minus : UnaryOp::Not, expression(depth + 1)});
-      case 1: return chain(depth);
+      case 0:
+        return grammar_.add(Unary{chance(0.5) ? UnaryOp::Minus : UnaryOp::Not, expression(depth + 1)});
+      case 1:
+        return chain(depth);
       case 2: {
         const ExprId condition = expression(depth + 1);
         const ExprId yes = expression(depth + 1);
         return grammar_.add(Conditional{condition, yes, expression(depth + 1)});
       }
-      case 3: return grammar_.add(Call{chance(0.5) ? "random" : name(), list(depth + 1, 0)});
-      case 4: return grammar_.add(Element{name(), list(depth + 1, 1)});
+      case 3:
+        return grammar_.add(Call{chance(0.5) ? "random" : name(), list(depth + 1, 0)});
+      case 4:
+        return grammar_.add(Element{name(), list(depth + 1, 1)});
       default: {
         const auto op = static_cast<BinaryOp>(rng_.below(static_cast<std::uint64_t>(BinaryOp::Or) + 1));
         const ExprId left = expression(depth + 1);
@@ -128,9 +138,12 @@ class Maker {
   }
   Statement statement(int depth) {
     switch (depth >= 3 ? rng_.below(3) : rng_.below(5)) {
-      case 0: return {Assign{name(), expression(2)}, {}};
-      case 1: return {AssignElement{name(), list(3, 1), expression(2)}, {}};
-      case 2: return {Evaluate{expression(2)}, {}};
+      case 0:
+        return {Assign{name(), expression(2)}, {}};
+      case 1:
+        return {AssignElement{name(), list(3, 1), expression(2)}, {}};
+      case 2:
+        return {Evaluate{expression(2)}, {}};
       case 3: {
         If made;
         made.condition = expression(3);
@@ -175,7 +188,8 @@ class Maker {
     if (chance(0.5)) made.condition = expression();
     made.conditionPlace = static_cast<ConditionPlace>(rng_.below(3));
     if (chance(0.2)) made.after = block();
-    for (int i = chance(0.3) ? 1 + upTo(2) : 1; i > 0; --i) made.successors.push_back({modules(0), chance(0.3) ? std::optional(expression(2)) : std::nullopt});
+    for (int i = chance(0.3) ? 1 + upTo(2) : 1; i > 0; --i)
+      made.successors.push_back({modules(0), chance(0.3) ? std::optional(expression(2)) : std::nullopt});
     return made;
   }
   std::vector<Production> productions() {

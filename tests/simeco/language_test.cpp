@@ -2,10 +2,7 @@
 //   // expect error LINE:COLUMN: the message's beginning
 //   // expect warning LINE:COLUMN: ...
 //   // expect nothing
-#include "base/files.hpp"
-#include "simeco/growth.hpp"
 #include "simeco/language.hpp"
-#include "support/shared_data.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +10,10 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+
+#include "base/files.hpp"
+#include "simeco/growth.hpp"
+#include "support/shared_data.hpp"
 
 namespace axil::simeco {
 namespace {
@@ -43,8 +44,8 @@ std::vector<std::string> expectations(const std::string& text) {
 /// `error 3:12: message`, as an expectation is written.
 std::string said(const Diagnostic& d, const std::string& text) {
   const SourcePlace place = placeOf(text, d.span.begin);
-  return std::string(d.severity == Severity::Error ? "error " : "warning ") + std::to_string(place.line) + ':' + std::to_string(place.column) + ": " +
-         d.message;
+  return std::string(d.severity == Severity::Error ? "error " : "warning ") + std::to_string(place.line) + ':' +
+         std::to_string(place.column) + ": " + d.message;
 }
 
 std::string allOf(const std::vector<Diagnostic>& diagnostics, const std::string& text) {
@@ -130,7 +131,8 @@ std::string ruleText(const std::string& rule) {
 TEST(Layout, TurnsStandTightAgainstWhatTheyTurn) {
   EXPECT_EQ(ruleText("S(1)->rotr(1)  rotu(2) S(3) L(4);"), "S(1) -> rotr(1)rotu(2)S(3)L(4) ;");
   EXPECT_EQ(ruleText("S(1)->S(0)A(10);"), "S(1) -> S(0) A(10) ;");
-  EXPECT_EQ(ruleText("S(1)->S(0)[rotr(1)S(2)L(3)][S(4)S(5)]rotr(2)S(6)[S(7)];"), "S(1) -> S(0) [rotr(1)S(2)L(3)] [S(4) S(5)] rotr(2)S(6) [S(7)] ;");
+  EXPECT_EQ(ruleText("S(1)->S(0)[rotr(1)S(2)L(3)][S(4)S(5)]rotr(2)S(6)[S(7)];"),
+            "S(1) -> S(0) [rotr(1)S(2)L(3)] [S(4) S(5)] rotr(2)S(6) [S(7)] ;");
   EXPECT_EQ(ruleText("S(1)->;"), "S(1) -> ;");
 }
 
@@ -204,7 +206,8 @@ class GrammarFiles : public testing::Test {
 };
 
 TEST_F(GrammarFiles, Big5IsRecognisedAndConverted) {
-  const auto path = write("big5.simeco", "EcoSystem 1.0 \"\xB0\xA8\xC4\xE5\xA4\xA6\" { Plant \"p\" { Stem { Stage 1 {} } Grow { w = S(1); } } }");
+  const auto path =
+      write("big5.simeco", "EcoSystem 1.0 \"\xB0\xA8\xC4\xE5\xA4\xA6\" { Plant \"p\" { Stem { Stage 1 {} } Grow { w = S(1); } } }");
   const auto file = readGrammarFile(path);
   ASSERT_TRUE(file) << file.error().message;
   EXPECT_EQ(allOf(file->parsed.diagnostics, file->text), "");
