@@ -63,17 +63,17 @@ Result<Derivation> derive(const Grammar& grammar, const DeriveOptions& options) 
   derivation.settled = *outcome == Engine::Outcome::Settled;
   derivation.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (auto finished = (*engine)->finish(); !finished) return finished.failure();
-  derivation.string = (*engine)->string();
   derivation.variables = (*engine)->variables();
   derivation.peakBytes = (*engine)->peakBytes();
   derivation.warnings = (*engine)->warnings();
+  derivation.string = (*engine)->takeString();
   derivation.engine = *engine;
   return derivation;
 }
 
 Result<Image> imageOf(const Derivation& derivation) {
   if (!derivation.engine) return fail(ErrorCode::BadInput, "an image needs a derivation, and nothing has been derived");
-  return derivation.engine->image();
+  return derivation.engine->imageOf(derivation.string);
 }
 
 }  // namespace axil::simeco

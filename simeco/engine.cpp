@@ -49,10 +49,12 @@ void describeRules(Engine::State& s) {
 bool isPlain(const Engine::State& s) {
   const Program& program = *s.program;
   const System& main = program.main();
-  if (s.options.generalWay || program.systems.size() > 1 || program.enter >= 0 || main.ring || !main.decomposition.empty()) return false;
-  if (hasStatements(main.productions)) return false;
+  if (s.options.generalWay || program.systems.size() > 1 || program.enter >= 0 || main.ring) return false;
+  if (hasStatements(main.productions) || hasStatements(main.decomposition)) return false;
   if (program.cut >= 0 && main.productions.bySymbol[static_cast<std::size_t>(program.cut)].all.empty()) return false;
-  return std::all_of(main.productions.rules.begin(), main.productions.rules.end(), [](const CompiledRule& r) { return r.predecessor.size() == 1; });
+  const auto single = [](const CompiledRule& rule) { return rule.predecessor.size() == 1; };
+  return std::all_of(main.productions.rules.begin(), main.productions.rules.end(), single) &&
+         std::all_of(main.decomposition.rules.begin(), main.decomposition.rules.end(), single);
 }
 
 }  // namespace
@@ -137,7 +139,7 @@ Result<std::shared_ptr<Engine>> Engine::create(std::shared_ptr<const Program> pr
   s.plain = isPlain(s);
   if (s.plain) {
     s.plans = planFor(*s.program);
-    s.calm = std::make_unique<Calm>(*s.program, *s.plans);
+    s.calm = std::make_unique<Calm>(*s.program, *s.plans, s.options.modulesForCalm);
     s.workers = std::make_unique<Workers>(s.options.threads);
     s.lanes.resize(s.machines.size());
   }
@@ -214,7 +216,7 @@ Result<Engine::Outcome> Engine::run(std::optional<std::int64_t> count, std::vect
   const Limits& limits = s.options.limits;
   Machine& m = s.machine();
   const auto wanted = [&] { return m.newLength ? m.newLength : count; };
-  if (count && *count <= limits.steps && s.canLeap()) return s.leap(*count, modulesPerStep);
+  if (count && *count > s.steps && *count <= limits.steps && s.canLeap()) return s.leap(*count - s.steps, modulesPerStep);
   while (!s.stopped && (!wanted() || s.steps < *wanted())) {
     if (s.steps >= limits.steps) return tooManySteps();
     const auto outcome = step();
@@ -223,7 +225,7 @@ Result<Engine::Outcome> Engine::run(std::optional<std::int64_t> count, std::vect
       if (!count) return Outcome::Settled;
       // The remaining steps change nothing: they are only counted.
       if (*count > limits.steps) return tooManySteps();
-      modulesPerStep.resize(static_cast<std::size_t>(*count), s.string.size());
+      modulesPerStep.resize(modulesPerStep.size() + static_cast<std::size_t>(*count - s.steps), s.string.size());
       s.steps = *count;
       return Outcome::Settled;
     }
@@ -245,7 +247,9 @@ Result<void> Engine::finish() {
   return s.options.host.betweenSteps(view);
 }
 
-Result<Image> Engine::image() const { return state_->makeImage(); }
+Result<Image> Engine::imageOf(const ModuleString& string) const { return state_->makeImage(string); }
+
+ModuleString Engine::takeString() { return std::move(state_->string); }
 
 const ModuleString& Engine::string() const { return state_->string; }
 std::span<double> Engine::parameters() { return {state_->string.parameterBuffer().data(), state_->string.parameterBuffer().size()}; }
@@ -283,7 +287,7 @@ bool Engine::setVariable(std::string_view name, double value) {
 std::int64_t HostStep::step() const { return engine_.stepsDone(); }
 const ModuleString& HostStep::string() const { return engine_.string(); }
 std::span<double> HostStep::parameters() { return engine_.parameters(); }
-Result<Image> HostStep::image() const { return engine_.image(); }
+Result<Image> HostStep::image() const { return engine_.imageOf(engine_.string()); }
 std::optional<double> HostStep::variable(std::string_view name) const {
   const auto values = engine_.variables();
   const auto found = values.find(std::string(name));

@@ -33,7 +33,10 @@ struct EngineOptions {
   Watch watch = {};
   int threads = 1;
   bool singlePrecision = false;
-  bool generalWay = false;       ///< always take the general way; tests compare both
+  // Tests make these small, to compare all ways on short strings.
+  bool generalWay = false;                  ///< always take the general way
+  std::size_t modulesPerThread = 4096;      ///< fewer are not worth another thread
+  std::size_t modulesForCalm = 512;         ///< fewer are not worth remembering what moved
   Host host = {};
 };
 
@@ -56,7 +59,8 @@ class Engine {
 
   /// The error for a derivation that needs more steps than its limit, with the rule that was growing.
   [[nodiscard]] Failure tooManySteps() const;
-  [[nodiscard]] Result<Image> image() const;
+  /// The homomorphism of `string`, which must be one that this engine made.
+  [[nodiscard]] Result<Image> imageOf(const ModuleString& string) const;
 
   [[nodiscard]] const ModuleString& string() const;
   [[nodiscard]] ModuleString takeString();

@@ -7,15 +7,13 @@ namespace axil::simeco {
 
 namespace {
 
-// Below this a whole scan costs less than the bookkeeping.
-constexpr std::size_t kFewModules = 512;
 // At most this share of the modules may move.
 constexpr std::size_t kShare = 32;
 
 }  // namespace
 
 bool Calm::worthTrying(std::size_t modules) const {
-  if (!plans_.calms || modules < kFewModules || modules >= nowhere) return false;
+  if (!plans_.calms || modules < fewest_ || modules >= nowhere) return false;
   return known_ || (patience_ == 0 && lastFired_ <= modules / kShare);
 }
 
@@ -106,6 +104,7 @@ bool Calm::decide(const ModuleString& string, std::uint32_t at, Machine& machine
       for (const CompiledRule* rule : plans_.lists[plan.table[codeAt(left_[at]) * (plans_.codes + 1) + codeAt(right_[at])]].rules)
         if (holds(*rule)) return take(*rule);
       return true;
+    case Plan::Kind::Keep:
     case Plan::Kind::Lottery:
     case Plan::Kind::Rules: break;
   }

@@ -16,7 +16,8 @@ namespace axil::simeco {
 
 class Calm {
  public:
-  Calm(const Program& program, const Plans& plans) : program_(program), plans_(plans) {}
+  /// Strings of fewer than `fewest` modules are scanned as a whole: that costs less than the bookkeeping.
+  Calm(const Program& program, const Plans& plans, std::size_t fewest) : program_(program), plans_(plans), fewest_(fewest) {}
 
   /// Whether the next step should be tried this way: the step before fired little, and trying has not failed lately.
   [[nodiscard]] bool worthTrying(std::size_t modules) const;
@@ -48,6 +49,7 @@ class Calm {
 
   const Program& program_;
   const Plans& plans_;
+  std::size_t fewest_;
   // Neighbours of every module that is no bracket; for brackets left_ holds the partner.
   Buffer<std::uint32_t> left_, right_, offset_;
   Buffer<std::uint32_t> stack_;

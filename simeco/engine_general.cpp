@@ -10,20 +10,11 @@ namespace axil::simeco {
 
 namespace {
 
-/// Modules still to be looked up: [at, end) of the stack of lists, made by `depth` nested applications.
-struct Cursor {
-  std::size_t at = 0;
-  std::size_t end = 0;
-  std::size_t parameter = 0;        ///< of the module at `at`
-  std::size_t listBegin = 0;        ///< where the list starts, to give its room back
-  std::size_t parameterBegin = 0;
-  int depth = 0;
-};
-
 /// One pass over the old string. Its members are the state of the pass; `run` is the recipe.
 class Pass {
  public:
-  Pass(Engine::State& state, StepTrace* trace) : s_(state), program_(*state.program), machine_(state.machine()), trace_(trace), old_(state.oldString()) {
+  Pass(Engine::State& state, const ModuleString& old, StepTrace* trace)
+      : s_(state), program_(*state.program), machine_(state.machine()), trace_(trace), old_{old.codes(), old.parameters()} {
     std::size_t frame = 1;
     for (const System& system : program_.systems)
       for (const RuleTable* table : {&system.productions, &system.decomposition, &system.homomorphism})
@@ -227,7 +218,7 @@ class Pass {
   }
 
   bool keep(std::size_t& at) {
-    if (system_->decomposition.empty()) {
+    if (system_->decomposition.empty() || system_->decomposition.bySymbol[old_.codes[at]].all.empty()) {
       copyModule(at);
       return true;
     }
@@ -302,7 +293,7 @@ class Pass {
 
   bool fire(const CompiledRule& rule, std::size_t& at, double* locals) {
     ++fired_;
-    if (rule.random) machine_.setRandom(s_.stream(Stream::Successor, static_cast<std::uint64_t>(s_.steps), at));
+    if (rule.random || !system_->decomposition.empty()) machine_.setRandom(s_.stream(Stream::Successor, static_cast<std::uint64_t>(s_.steps), at));
     if (!rule.after.empty()) machine_.run(rule.after, locals);
     if (machine_.trouble()) return inTrouble(rule);
     const CompiledSuccessor* successor = choose(rule, locals);
@@ -522,7 +513,7 @@ class Pass {
 Result<std::size_t> Engine::State::generalStep(StepTrace* trace) {
   if (trace != nullptr) *trace = {};
   around.read(*program, program->main().ignored, needs, string.codes());
-  Pass pass(*this, trace);
+  Pass pass(*this, string, trace);
   if (!pass.derive(spare)) return pass.failure();
   if (!pass.nameVisits(spare.codes.span(), spare.parameters.span())) return pass.failure();
   pass.moveVisits();
@@ -532,19 +523,19 @@ Result<std::size_t> Engine::State::generalStep(StepTrace* trace) {
 }
 
 Result<void> Engine::State::findVisits() {
-  Pass pass(*this, nullptr);
+  Pass pass(*this, string, nullptr);
   if (!pass.nameVisits(string.codes(), string.parameters())) return pass.failure();
   visits = pass.takeVisits();
   return {};
 }
 
-Result<Image> Engine::State::makeImage() {
+Result<Image> Engine::State::makeImage(const ModuleString& of) {
   Image image{ModuleString(program->symbols), {}};
   Arrays out;
-  around.read(*program, program->main().ignored, needs, string.codes());
+  around.read(*program, program->main().ignored, needs, of.codes());
   const Instance mainBefore = main;
   const std::vector<Instance> visitsBefore = visits;
-  Pass pass(*this, nullptr);
+  Pass pass(*this, of, nullptr);
   const bool drawn = pass.draw(out, image.source);
   // An image is a view: what its statements do to variables is forgotten.
   main = mainBefore;

@@ -35,7 +35,7 @@ class Leap {
       left -= now;
       s_.steps += now;
       if (auto go = s_.mayGoOn(); !go) return go.failure();
-      s_.options.watch.report("deriving", static_cast<double>(s_.steps) / static_cast<double>(steps_));
+      s_.options.watch.report("deriving", static_cast<double>(steps_ - left) / static_cast<double>(steps_));
     }
     return settled_ ? Engine::Outcome::Settled : Engine::Outcome::Changed;
   }
@@ -77,7 +77,7 @@ class Leap {
       modulesPerStep.push_back(static_cast<std::size_t>(modules));
       modules_ = static_cast<std::size_t>(modules);
       if (!resting) continue;
-      modulesPerStep.resize(static_cast<std::size_t>(steps_), modules_);
+      modulesPerStep.resize(modulesPerStep.size() + static_cast<std::size_t>(steps_ - step - 1), modules_);
       break;
     }
     settled_ = resting;
@@ -92,7 +92,7 @@ class Leap {
       made = counts[code] * plans_.bySymbol[code].direct->length;
       most = plans_.bySymbol[code].direct->rule;
     }
-    s_.steps = step;
+    s_.steps += step;
     return s_.tooMany(what, limit, most);
   }
 

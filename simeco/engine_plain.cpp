@@ -104,10 +104,11 @@ class PartPass {
   PartPass(Engine::State& state, Machine& machine, Lane& lane)
       : s_(state), plans_(*state.plans), program_(*state.program), machine_(machine), lane_(lane), old_(state.oldString()),
         matcher_(program_, program_.main(), old_, state.around, false), choices_(state.stream(Stream::Choice)), successors_(state.stream(Stream::Successor)),
-        step_(static_cast<std::uint64_t>(state.steps)), stochastic_(program_.main().stochastic), finite_(program_.language == Language::SimEco),
+        step_(static_cast<std::uint64_t>(state.steps)), stochastic_(program_.main().stochastic), withLottery_(stochastic_), finite_(program_.language == Language::SimEco),
         single_(state.options.singlePrecision) {
     std::size_t frame = 1;
-    for (const CompiledRule& rule : program_.main().productions.rules) frame = std::max<std::size_t>(frame, rule.frame);
+    for (const RuleTable* table : {&program_.main().productions, &program_.main().decomposition})
+      for (const CompiledRule& rule : table->rules) frame = std::max<std::size_t>(frame, rule.frame);
     frame_ = frame;
     lane_.locals.resize(frame);
   }
@@ -115,17 +116,38 @@ class PartPass {
   void run(std::size_t begin, std::size_t end, std::size_t parameter) {
     machine_.setInstance(&s_.main, &program_.main());
     lane_.fired = 0;
+    lane_.depthReached = false;
+    lane_.cursors.clear();
+    lane_.lists.codes.clear();
+    lane_.lists.parameters.clear();
     lane_.out->codes.clear();
     lane_.out->parameters.clear();
     AXIL_ASSERT(old_.parameters.data() != nullptr, "two numbers can always be read, even where there are none");
     in_ = old_.parameters.data() + parameter;
     rule_ = nullptr;
     if (plans_.rightCodes) readRightCodes(begin, end);
-    plans_.parameters ? withParameters<true>(begin, end) : withParameters<false>(begin, end);
+    if (plans_.bytes)
+      withLottery_ ? byteNeighbours<true>(begin, end) : byteNeighbours<false>(begin, end);
+    else
+      plans_.parameters ? withParameters<true>(begin, end) : withParameters<false>(begin, end);
     lane_.lastRule = rule_;
   }
 
  private:
+  template <bool lottery>
+  void byteNeighbours(std::size_t begin, std::size_t end) {
+    if (plans_.leftCodes)
+      plans_.rightCodes ? byteBlocks<lottery, true, true>(begin, end) : byteBlocks<lottery, true, false>(begin, end);
+    else
+      plans_.rightCodes ? byteBlocks<lottery, false, true>(begin, end) : byteBlocks<lottery, false, false>(begin, end);
+  }
+  template <bool lottery, bool withLeft, bool withRight>
+  void byteBlocks(std::size_t begin, std::size_t end) {
+    eachBlock(begin, end, [this](std::size_t at, std::size_t to, SymbolCode last, LeftFringe& fringe) {
+      return rewriteBytes<lottery, withLeft, withRight>(at, to, last, fringe);
+    });
+  }
+
   template <bool parameters>
   void withParameters(std::size_t begin, std::size_t end) {
     if (plans_.leftCodes)
@@ -137,51 +159,116 @@ class PartPass {
   void readRightCodes(std::size_t begin, std::size_t end) {
     RightFringe fringe(plans_, old_.codes, end);
     SymbolCode* const right = s_.rightCodes.data();
+    const SymbolCode* const codes = old_.codes.data();
+    const Hot* const hots = plans_.hot.data();
+    const SymbolCode nobody = fringe.nobody();
     Buffer<SymbolCode>& stack = lane_.stack;
     stack.clear();
     SymbolCode next = fringe.nearest();
     for (std::size_t i = end; i-- > begin;) {
       right[i] = next;
-      const SymbolCode code = old_.codes[i];
-      switch (plans_.hot[code].role) {
-        case Plans::Considered: next = code; break;
-        case Plans::Ignored: break;
-        case Plans::Closes:
-          stack.push(next);
-          next = fringe.nobody();
-          break;
-        default:
-          if (stack.size() > 0) {
-            next = stack[stack.size() - 1];
-            stack.setSize(stack.size() - 1);
-          } else {
-            fringe.leave();
-            next = fringe.nearest();
-          }
+      const SymbolCode code = codes[i];
+      const std::uint8_t role = hots[code].role;
+      if (role < Plans::Opens) {
+        next = role == Plans::Considered ? code : next;
+      } else if (role == Plans::Closes) {
+        stack.push(next);
+        next = nobody;
+      } else if (stack.size() > 0) {
+        next = stack[stack.size() - 1];
+        stack.setSize(stack.size() - 1);
+      } else {
+        fringe.leave();
+        next = fringe.nearest();
       }
     }
   }
 
-  /// Block by block: room for the longest that a block can become is made before it, so that nothing inside has to ask.
   template <bool withParameters, bool withLeft, bool withRight>
   void blocks(std::size_t begin, std::size_t end) {
+    eachBlock(begin, end, [this](std::size_t at, std::size_t to, SymbolCode last, LeftFringe& fringe) {
+      return rewrite<withParameters, withLeft, withRight>(at, to, last, fringe);
+    });
+  }
+
+  /// Block by block: room for the longest that a block can become is made before it, so that nothing inside has to ask.
+  template <class Rewrite>
+  void eachBlock(std::size_t begin, std::size_t end, Rewrite rewriteBlock) {
     constexpr std::size_t blockModules = 1 << 16;
     const std::size_t block = std::clamp<std::size_t>(blockModules / std::max(plans_.longest, plans_.most), 1, 2048);
+    room_ = block;
     LeftFringe fringe(plans_, old_.codes, begin);
     lane_.stack.clear();
-    SymbolCode last = withLeft ? fringe.nearest() : SymbolCode{0};
+    SymbolCode last = plans_.leftCodes ? fringe.nearest() : SymbolCode{0};
     std::size_t looks = 0;
     for (std::size_t at = begin; at < end && !lane_.error; at += block) {
       const std::size_t to = std::min(end, at + block);
       Arrays& out = *lane_.out;
-      out.codes.reserveMore(out.codes.size() + (to - at) * plans_.longest);
-      out.parameters.reserveMore(out.parameters.size() + (to - at) * plans_.most);
-      last = rewrite<withParameters, withLeft, withRight>(at, to, last, fringe);
+      out.codes.reserveMore(out.codes.size() + block * plans_.longest);
+      out.parameters.reserveMore(out.parameters.size() + block * plans_.most);
+      last = rewriteBlock(at, to, last, fringe);
       if (!lane_.error && out.codes.size() > s_.options.limits.modules) lane_.error = s_.tooMany("modules", s_.options.limits.modules, rule_).error;
       constexpr std::size_t betweenLooks = 64;
       if (++looks % betweenLooks != 0 || lane_.error) continue;
       if (auto go = s_.mayGoOn(); !go) lane_.error = go.error();
     }
+  }
+
+  /// Without parameters every module is replaced by an entry of a table, copied whole; the only branches are brackets.
+  template <bool lottery, bool withLeft, bool withRight>
+  SymbolCode rewriteBytes(std::size_t begin, std::size_t end, SymbolCode last, LeftFringe& fringe) {
+    const SymbolCode* const codes = old_.codes.data();
+    const SymbolCode* const rights = s_.rightCodes.data();
+    const ByteSymbol* const symbols = plans_.byteSymbols.data();
+    const ByteEntry* const entries = plans_.entries.data();
+    const Plan* const plans = plans_.bySymbol.data();
+    const Rng choices = choices_;
+    const std::uint64_t step = step_;
+    SymbolCode* to = lane_.out->codes.data() + lane_.out->codes.size();
+    std::size_t fired = 0;
+    const ByteEntry* fires = nullptr;
+    for (std::size_t at = begin; at < end; ++at) {
+      const SymbolCode code = codes[at];
+      const ByteSymbol symbol = symbols[code];
+      std::size_t entry = symbol.first;
+      if constexpr (withLeft) entry += std::size_t{last} * symbol.leftStep;
+      if constexpr (!withLeft && withRight) entry += plans_.codes * symbol.leftStep;
+      if constexpr (withRight) entry += std::size_t{rights[at]} * symbol.rightStep;
+      if constexpr (withLeft && !withRight) entry += plans_.codes * symbol.rightStep;
+      if constexpr (lottery) {
+        if (symbol.drawn) entry += ticket(plans[code], choices.split(step, at).uniform());
+      }
+      const ByteEntry& made = entries[entry];
+      std::memcpy(to, made.codes.data(), made.codes.size());
+      if (made.longer != nullptr) [[unlikely]] {
+        std::memcpy(to, made.longer->successor->codes.data(), made.length);
+        fires = &made;
+      }
+      to += made.length;
+      fired += made.fires;
+      if constexpr (withLeft) {
+        if (symbol.role >= Plans::Opens)
+          last = leftAfter(symbol.role, code, last, fringe);
+        else
+          last = symbol.role == Plans::Considered ? code : last;
+      }
+    }
+    if (fires != nullptr) rule_ = fires->longer->rule;
+    lane_.fired += fired;
+    lane_.out->codes.setSize(static_cast<std::size_t>(to - lane_.out->codes.data()));
+    return last;
+  }
+  /// As `chosen`, without a branch that chance would take.
+  static std::size_t ticket(const Plan& plan, double uniform) {
+    double left = plan.sum * uniform;
+    std::size_t i = 0;
+    bool on = true;
+    for (std::size_t k = 0; k + 1 < plan.weights.size(); ++k) {
+      on = on && left >= plan.weights[k];
+      left -= plan.weights[k];
+      i += on ? 1 : 0;
+    }
+    return i;
   }
 
   template <bool withParameters, bool withLeft, bool withRight>
@@ -206,6 +293,11 @@ class PartPass {
           else
             *pen.to++ = code;
           break;
+        case Plan::Kind::Keep:
+          pen_ = pen;
+          fine = keep(code, hot.parameters, at);
+          pen = pen_;
+          break;
         case Plan::Kind::Direct:
           fine = put(pen, *plans[code].direct, at);
           chosen = plans[code].direct;
@@ -214,7 +306,7 @@ class PartPass {
         case Plan::Kind::Guarded: {
           const QuickSuccessor* const holding = firstThatHolds(plans[code], pen.in, fine);
           if (holding == nullptr) {
-            copy(pen, code, hot.parameters);
+            fine = fine && keepOrCopy(pen, hot, code, at);
           } else {
             fine = put(pen, *holding, at);
             chosen = holding;
@@ -233,7 +325,7 @@ class PartPass {
             fine = put(pen, *list.outright, at);
             ++fired;
           } else if (list.rules.empty()) {
-            copy(pen, code, hot.parameters);
+            fine = keepOrCopy(pen, hot, code, at);
           } else {
             pen_ = pen;
             fired += tryRules(list.rules, [](const CompiledRule* rule) { return rule; }, code, at, hot.parameters);
@@ -271,10 +363,9 @@ class PartPass {
 
   /// Writes a successor whose parameters depend on the module's own at most.
   bool put(Pen& pen, const QuickSuccessor& successor, std::size_t at) {
+    if (!successor.quick || single_ || finite_) return putSlowly(pen, successor, at);
     copyCodes(pen.to, successor);
     pen.to += successor.length;
-    if (successor.values == 0) return true;
-    if (!successor.quick || single_ || finite_) return putSlowly(pen, successor, at);
     const QuickTerm* const terms = successor.terms.data();
     for (std::uint32_t i = 0; i < successor.values; ++i) {
       const QuickTerm& term = terms[i];
@@ -285,9 +376,20 @@ class PartPass {
     return true;
   }
   bool putSlowly(Pen& pen, const QuickSuccessor& successor, std::size_t at) {
-    if (successor.random) machine_.setRandom(successors_.split(step_, at));
+    if (successor.random || plans_.decomposes) machine_.setRandom(successors_.split(step_, at));
     pen_ = pen;
-    const bool fine = compute(*successor.rule, *successor.successor, const_cast<double*>(pen.in));
+    const bool fine = writeSuccessor(*successor.rule, *successor.successor, const_cast<double*>(pen.in), at);
+    pen = pen_;
+    return fine;
+  }
+  /// A module that no production rewrites: copied, or decomposed.
+  bool keepOrCopy(Pen& pen, Hot hot, SymbolCode code, std::size_t at) {
+    if (!hot.decomposes) {
+      copy(pen, code, hot.parameters);
+      return true;
+    }
+    pen_ = pen;
+    const bool fine = keep(code, hot.parameters, at);
     pen = pen_;
     return fine;
   }
@@ -352,8 +454,9 @@ class PartPass {
     pen_.numbers += count;
     return true;
   }
-  bool writeSuccessor(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals) {
+  bool writeSuccessor(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, std::size_t at) {
     rule_ = &rule;
+    if (plans_.decomposes && decomposes(successor)) return list(rule, successor, locals, 0) && decompose(at);
     const std::size_t length = successor.codes.size();
     const SymbolCode* const codes = successor.codes.data();
     for (std::size_t i = 0; i < length; ++i) pen_.to[i] = codes[i];
@@ -362,20 +465,138 @@ class PartPass {
   }
   /// A rule with one successor.
   bool write(const CompiledRule& rule, double* locals, std::size_t at) {
-    if (rule.random) machine_.setRandom(successors_.split(step_, at));
-    return writeSuccessor(rule, rule.successors.front(), locals);
+    if (rule.random || plans_.decomposes) machine_.setRandom(successors_.split(step_, at));
+    return writeSuccessor(rule, rule.successors.front(), locals, at);
   }
-  bool fire(const CompiledRule& rule, double* locals, std::size_t at) {
-    if (rule.successors.size() == 1) return write(rule, locals, at);
+
+  // ---- decomposition: lists of modules, the innermost first, each module looked up ----------------------------------
+
+  bool decomposes(const CompiledSuccessor& successor) const {
+    return std::any_of(successor.codes.begin(), successor.codes.end(), [&](SymbolCode code) { return plans_.hot[code].decomposes; });
+  }
+  /// A module without production: a list of one.
+  bool keep(SymbolCode code, std::size_t parameters, std::size_t at) {
     machine_.setRandom(successors_.split(step_, at));
+    Arrays& lists = lane_.lists;
+    lane_.cursors.push_back({0, 1, 0, 0, 0, 0});
+    lists.codes.reserveMore(1);
+    lists.codes[0] = code;
+    lists.codes.setSize(1);
+    lists.parameters.reserveMore(parameters + 1);
+    copyNumbers(lists.parameters.data(), pen_.in, parameters);
+    lists.parameters.setSize(parameters);
+    return decompose(at);
+  }
+  /// Puts a successor on top of the lists.
+  bool list(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, int depth) {
+    Arrays& lists = lane_.lists;
+    const std::size_t codes = lists.codes.size(), numbers = lists.parameters.size();
+    if (codes + successor.codes.size() > s_.options.limits.modules) return tooMany(rule);
+    lists.codes.reserveMore(codes + successor.codes.size());
+    lists.parameters.reserveMore(numbers + successor.terms.size() + 1);
+    for (std::size_t i = 0; i < successor.codes.size(); ++i) lists.codes[codes + i] = successor.codes[i];
+    lists.codes.setSize(codes + successor.codes.size());
+    const Pen before = pen_;
+    pen_.numbers = lists.parameters.data() + numbers;
+    const bool fine = compute(rule, successor, locals);
+    pen_ = before;
+    lists.parameters.setSize(numbers + successor.terms.size());
+    lane_.cursors.push_back({codes, lists.codes.size(), numbers, codes, numbers, depth});
+    return fine;
+  }
+  bool tooMany(const CompiledRule& rule) {
+    lane_.error = s_.tooMany("modules", s_.options.limits.modules, &rule).error;
+    return false;
+  }
+  /// Room for one more module here, and for the rest of the block as it was promised.
+  void makeRoom() {
+    Arrays& out = *lane_.out;
+    const auto codes = static_cast<std::size_t>(pen_.to - out.codes.data()), numbers = static_cast<std::size_t>(pen_.numbers - out.parameters.data());
+    if (codes + room_ * plans_.longest < out.codes.capacity() && numbers + (room_ + 1) * plans_.most < out.parameters.capacity()) return;
+    out.codes.setSize(codes);  // what is written is kept
+    out.parameters.setSize(numbers);
+    out.codes.reserveMore(codes + (room_ + 1) * plans_.longest);
+    out.parameters.reserveMore(numbers + (room_ + 2) * plans_.most);
+    pen_.to = out.codes.data() + codes;
+    pen_.numbers = out.parameters.data() + numbers;
+  }
+  bool decompose(std::size_t at) {
+    const RuleTable& table = program_.main().decomposition;
+    Arrays& lists = lane_.lists;
+    constexpr std::size_t betweenLooks = 1 << 16;
+    while (!lane_.cursors.empty()) {
+      Cursor& cursor = lane_.cursors.back();
+      if (cursor.at == cursor.end) {
+        lists.codes.setSize(cursor.listBegin);
+        lists.parameters.setSize(cursor.parameterBegin);
+        lane_.cursors.pop_back();
+        continue;
+      }
+      const SymbolCode code = lists.codes[cursor.at];
+      const std::size_t count = plans_.hot[code].parameters;
+      if (++listed_ % betweenLooks == 0)
+        if (auto go = s_.mayGoOn(); !go) lane_.error = go.error();
+      if (lane_.error) return false;
+      const CompiledRule* rule = plans_.hot[code].decomposes ? decomposing(table, cursor, count, at) : nullptr;
+      if (lane_.error) return false;
+      if (rule != nullptr) {
+        if (!expand(*rule, count)) return false;
+        continue;
+      }
+      makeRoom();
+      *pen_.to++ = code;
+      copyNumbers(pen_.numbers, lists.parameters.data() + cursor.parameter, count);
+      pen_.numbers += count;
+      cursor.parameter += count;
+      ++cursor.at;
+      if (static_cast<std::size_t>(pen_.to - lane_.out->codes.data()) > s_.options.limits.modules) return tooMany(rule_ == nullptr ? table.rules.front() : *rule_);
+    }
+    return true;
+  }
+  /// The decomposition rule that applies to the module at the cursor; its parameters are in the lane's locals then.
+  const CompiledRule* decomposing(const RuleTable& table, const Cursor& cursor, std::size_t count, std::size_t at) {
+    const double* const parameters = lane_.lists.parameters.data() + cursor.parameter;
+    for (const std::uint32_t number : candidates(table.bySymbol[lane_.lists.codes[cursor.at]], parameters)) {
+      const CompiledRule& rule = table.rules[number];
+      double* const locals = lane_.locals.data();
+      if (!Matcher::bind(rule.predecessor.front(), parameters, count, locals) || !matcher_.contexts(rule, at, at, locals)) continue;
+      const bool holds = !rule.hasCondition || machine_.value(rule.condition, locals) != 0;
+      if (machine_.trouble()) inTrouble(rule);
+      if (machine_.trouble()) return nullptr;
+      if (!holds) continue;
+      if (cursor.depth < table.maximumDepth) return &rule;
+      lane_.depthReached = lane_.depthReached || table.warn;
+    }
+    return nullptr;
+  }
+  bool expand(const CompiledRule& rule, std::size_t count) {
+    Cursor& cursor = lane_.cursors.back();
+    const int depth = cursor.depth + 1;
+    cursor.parameter += count;
+    ++cursor.at;
+    ++lane_.fired;
+    const CompiledSuccessor* successor = choose(rule, lane_.locals.data());
+    return successor != nullptr && list(rule, *successor, lane_.locals.data(), depth);
+  }
+
+  /// One of a rule's successors, by weight.
+  const CompiledSuccessor* choose(const CompiledRule& rule, double* locals) {
+    if (rule.successors.size() == 1) return &rule.successors.front();
     weights_.clear();
     double sum = 0;
     for (const CompiledSuccessor& successor : rule.successors) {
       weights_.push_back(weight(successor, locals));
       sum += weights_.back();
     }
-    if (machine_.trouble()) return inTrouble(rule);
-    return writeSuccessor(rule, rule.successors[chosen(weights_, sum * machine_.rng().uniform())], locals);
+    if (machine_.trouble()) inTrouble(rule);
+    if (machine_.trouble()) return nullptr;
+    return &rule.successors[chosen(weights_, sum * machine_.rng().uniform())];
+  }
+  bool fire(const CompiledRule& rule, double* locals, std::size_t at) {
+    if (rule.successors.size() == 1) return write(rule, locals, at);
+    machine_.setRandom(successors_.split(step_, at));
+    const CompiledSuccessor* successor = choose(rule, locals);
+    return successor != nullptr && writeSuccessor(rule, *successor, locals, at);
   }
 
   double weight(const CompiledSuccessor& successor, double* locals) {
@@ -420,7 +641,7 @@ class PartPass {
       }
       if (lane_.error) return 0;
     }
-    copy(pen_, code, parameters);
+    keepOrCopy(pen_, plans_.hot[code], code, at);
     return 0;
   }
 
@@ -443,7 +664,7 @@ class PartPass {
       if (lane_.error) return 0;
     }
     if (weights_.empty()) {
-      copy(pen_, code, parameters);
+      keepOrCopy(pen_, plans_.hot[code], code, at);
       return 0;
     }
     const auto& [rule, locals] = lane_.applicable[chosen(weights_, sum * machine_.rng().uniform())];
@@ -462,11 +683,13 @@ class PartPass {
   Matcher matcher_;
   Rng choices_, successors_;
   std::uint64_t step_;
-  bool stochastic_, finite_, single_;
+  bool stochastic_, withLottery_, finite_, single_;
   Matched matched_ = Matched::NotYet;
   const CompiledRule* rule_ = nullptr;  ///< the last one that wrote; for messages
   std::size_t frame_ = 1;
   const double* in_ = nullptr;          ///< parameters of the module at hand
+  std::size_t room_ = 0;                ///< modules of a block
+  std::size_t listed_ = 0;
   Pen pen_;                             ///< where the slower ways read and write
   std::vector<double> weights_;
 };
@@ -518,7 +741,6 @@ void joinLanes(Engine::State& s, int threads) {
 }  // namespace
 
 Result<std::size_t> Engine::State::plainStep() {
-  constexpr std::size_t worthAThread = 4096;
   const std::size_t size = string.size();
   if (timeless && calm->worthTrying(size)) {
     if (const auto changed = calm->step(string, machine(), options.singlePrecision)) {
@@ -527,7 +749,7 @@ Result<std::size_t> Engine::State::plainStep() {
       return *changed;
     }
   }
-  const int threads = static_cast<int>(std::clamp<std::size_t>(size / worthAThread, 1, static_cast<std::size_t>(workers->count())));
+  const int threads = static_cast<int>(std::clamp<std::size_t>(size / options.modulesPerThread, 1, static_cast<std::size_t>(workers->count())));
   readSurroundings(*this, threads == 1 ? 1 : workers->count());
   if (plans->rightCodes) rightCodes.setSize(size);
   const auto part = [&](int thread) {
@@ -536,6 +758,12 @@ Result<std::size_t> Engine::State::plainStep() {
     Lane& lane = lanes[t];
     lane.out = thread == 0 ? &spare : &lane.own;
     lane.error.reset();
+    lane.out->codes.clear();
+    lane.out->parameters.clear();
+    // Room for as much as the last step's growth promises: the first lane writes where all lanes are put together.
+    const std::size_t share = thread == 0 ? 1 : n;
+    lane.out->codes.reserve(static_cast<std::size_t>(grownCodes * static_cast<double>(size)) / share);
+    lane.out->parameters.reserve(static_cast<std::size_t>(grownNumbers * static_cast<double>(size)) / share);
     const std::size_t begin = size * t / n, end = size * (t + 1) / n;
     PartPass(*this, machines[t], lane).run(begin, end, parametersBefore(*this, begin));
   };
@@ -546,10 +774,14 @@ Result<std::size_t> Engine::State::plainStep() {
     if (lane.error) return fail(*lane.error);
     fired_ += lane.fired;
     if (lane.lastRule != nullptr) lastRule = lane.lastRule;
+    if (lane.depthReached) note("the maximum depth of the decomposition kept rules from being applied");
   }
   calm->disturbed(fired_);
   joinLanes(*this, threads);
   if (spare.codes.size() > options.limits.modules) return tooMany("modules", options.limits.modules, nullptr);
+  constexpr double spareRoom = 1.06;
+  grownCodes = spareRoom * static_cast<double>(spare.codes.size()) / static_cast<double>(std::max<std::size_t>(size, 1));
+  grownNumbers = spareRoom * static_cast<double>(spare.parameters.size()) / static_cast<double>(std::max<std::size_t>(size, 1));
   return fired_;
 }
 

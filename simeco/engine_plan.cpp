@@ -41,14 +41,61 @@ class Planner {
     plans_->codes = program_.symbols->size();
     for (std::size_t code = 0; code < 256; ++code)
       plans_->hot[code].role = program_.opens[code] ? Plans::Opens : program_.closes[code] ? Plans::Closes : main_.ignored[code] ? Plans::Ignored : Plans::Considered;
+    plans_->decomposes = !main_.decomposition.empty();
+    for (std::size_t code = 0; code < plans_->codes; ++code) plans_->hot[code].decomposes = !main_.decomposition.bySymbol[code].all.empty();
+    for (const CompiledRule& rule : main_.decomposition.rules) addNeeds(rule);
     for (std::size_t code = 0; code < plans_->codes; ++code) planSymbol(code);
     // The tables are in place now and do not move any more.
     for (std::size_t code = 0; code < plans_->codes; ++code)
       if (tableOf_[code] >= 0) plans_->bySymbol[code].table = plans_->tables[static_cast<std::size_t>(tableOf_[code])].data();
+    planBytes();
     return std::move(plans_);
   }
 
  private:
+  // ---- entries for strings without parameters ----------------------------------------------------------------------
+
+  [[nodiscard]] bool allBytes() const {
+    if (plans_->parameters || plans_->decomposes) return false;
+    for (std::size_t code = 0; code < plans_->codes; ++code) {
+      const Plan::Kind kind = plans_->hot[code].kind;
+      if (kind == Plan::Kind::Rules || kind == Plan::Kind::Guarded || kind == Plan::Kind::Keep) return false;
+    }
+    return std::all_of(plans_->lists.begin(), plans_->lists.end(), [](const CandidateList& list) { return list.rules.empty() || list.outright != nullptr; });
+  }
+  void planBytes() {
+    plans_->bytes = allBytes();
+    if (!plans_->bytes) return;
+    const std::size_t width = plans_->codes + 1;
+    for (std::size_t code = 0; code < plans_->codes; ++code) {
+      const Plan& plan = plans_->bySymbol[code];
+      const Plan::Kind kind = plans_->hot[code].kind;
+      ByteSymbol& symbol = plans_->byteSymbols[code];
+      symbol.role = plans_->hot[code].role;
+      symbol.first = static_cast<std::uint32_t>(plans_->entries.size());
+      symbol.drawn = kind == Plan::Kind::Lottery;
+      if (kind == Plan::Kind::Copy) addEntry(code, nullptr);
+      if (kind == Plan::Kind::Direct) addEntry(code, plan.direct);
+      for (const QuickSuccessor* choice : plan.choices) addEntry(code, choice);
+      if (kind != Plan::Kind::Neighbours) continue;
+      symbol.leftStep = static_cast<std::uint16_t>(width);
+      symbol.rightStep = 1;
+      for (std::size_t pair = 0; pair < width * width; ++pair) addEntry(code, plans_->lists[plan.table[pair]].outright);
+    }
+  }
+  void addEntry(std::size_t code, const QuickSuccessor* successor) {
+    ByteEntry entry;
+    entry.codes[0] = static_cast<SymbolCode>(code);
+    entry.length = 1;
+    if (successor != nullptr) {
+      entry.fires = 1;
+      entry.length = successor->length;
+      std::copy_n(successor->codes.begin(), entry.codes.size(), entry.codes.begin());
+      if (entry.length > entry.codes.size()) entry.longer = successor;
+    }
+    plans_->entries.push_back(entry);
+  }
+
   void planSymbol(std::size_t code) {
     Plan& plan = plans_->bySymbol[code];
     Hot& hot = plans_->hot[code];
@@ -60,12 +107,13 @@ class Planner {
     for (const std::uint32_t number : plan.index->all) rules.push_back(&main_.productions.rules[number]);
     for (const CompiledRule* rule : rules) measure(*rule);
     hot.kind = kindOf(plan, rules, code);
+    if (hot.kind == Plan::Kind::Copy && hot.decomposes) hot.kind = Plan::Kind::Keep;
     using Kind = Plan::Kind;
-    plans_->leaps = plans_->leaps && (hot.kind == Kind::Copy || (hot.kind == Kind::Direct && plan.direct->successor->constant));
+    plans_->leaps = plans_->leaps && !plans_->decomposes && (hot.kind == Kind::Copy || (hot.kind == Kind::Direct && plan.direct->successor->constant));
     const bool steady = hot.kind == Kind::Copy || hot.role == Plans::Considered || hot.role == Plans::Ignored;
     const bool calm = hot.kind == Kind::Copy || hot.kind == Kind::Direct || hot.kind == Kind::Guarded || hot.kind == Kind::Neighbours;
     const bool random = std::any_of(rules.begin(), rules.end(), [](const CompiledRule* r) { return r->random; });
-    plans_->calms = plans_->calms && steady && calm && !random;
+    plans_->calms = plans_->calms && steady && calm && !random && !plans_->decomposes;
   }
   void measure(const CompiledRule& rule) {
     for (const CompiledSuccessor& successor : rule.successors) {
@@ -108,6 +156,8 @@ class Planner {
     q->values = static_cast<std::uint32_t>(q->successor->terms.size());
     std::copy_n(q->successor->codes.begin(), std::min<std::size_t>(q->length, q->codes.size()), q->codes.begin());
     for (const Term& term : q->successor->terms) q->quick = quickTerm(term, q->terms.emplace_back()) && q->quick;
+    for (const SymbolCode code : q->successor->codes) q->decomposes = q->decomposes || plans_->hot[code].decomposes;
+    q->quick = q->quick && !q->decomposes;
     plans_->successors.push_back(std::move(q));
     return plans_->successors.back().get();
   }

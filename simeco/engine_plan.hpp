@@ -30,7 +30,8 @@ struct QuickSuccessor {
   std::uint32_t length = 0;                        ///< modules
   std::uint32_t values = 0;                        ///< parameters
   std::vector<QuickTerm> terms;                    ///< when `quick`
-  bool quick = true;                               ///< every parameter is a QuickTerm
+  bool quick = true;                               ///< every parameter is a QuickTerm, and nothing is decomposed
+  bool decomposes = false;                         ///< one of its modules has decomposition rules
   bool random = false;
   const CompiledRule* rule = nullptr;
   const CompiledSuccessor* successor = nullptr;
@@ -45,6 +46,7 @@ struct CandidateList {
 struct Plan {
   enum class Kind : std::uint8_t {
     Copy,        ///< no rule
+    Keep,        ///< no rule, but decomposition rules
     Direct,      ///< always the same successor
     Guarded,     ///< the first whose condition holds of its own parameters
     Lottery,     ///< one of several successors, by fixed weights
@@ -64,6 +66,24 @@ struct Hot {
   Plan::Kind kind = Plan::Kind::Copy;
   std::uint8_t role = 0;
   std::uint8_t parameters = 0;
+  bool decomposes = false;
+};
+
+/// What a module without parameters becomes, where at most its neighbours' codes matter: copied in one piece.
+struct alignas(32) ByteEntry {
+  std::array<SymbolCode, 16> codes{};
+  std::uint32_t length = 0;
+  std::uint32_t fires = 0;                          ///< 1 when a rule makes it
+  const QuickSuccessor* longer = nullptr;           ///< when it has more modules than fit here
+};
+
+/// Where a symbol's entries are: one, or one for every pair of neighbours, or one for every ticket of a lottery.
+struct ByteSymbol {
+  std::uint32_t first = 0;
+  std::uint16_t leftStep = 0;
+  std::uint16_t rightStep = 0;
+  std::uint8_t role = 0;
+  bool drawn = false;
 };
 
 struct Plans {
@@ -78,7 +98,11 @@ struct Plans {
   bool leftCodes = false;                       ///< some table asks for the left neighbour
   bool rightCodes = false;
   SurroundingNeeds needs;                       ///< of the symbols with Kind::Rules
+  bool decomposes = false;                      ///< there are decomposition rules
   bool parameters = false;                      ///< some symbol has parameters
+  bool bytes = false;                           ///< no parameters, nothing to compute: `entries` say it all
+  std::array<ByteSymbol, 256> byteSymbols;
+  std::vector<ByteEntry> entries;
   bool leaps = true;                            ///< only Copy and constant Direct: many steps can be made at once
   bool calms = true;                            ///< only Copy, Direct, Guarded and Neighbours, nothing random, brackets stay
   std::size_t longest = 1;                      ///< modules that one module may become

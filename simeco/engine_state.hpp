@@ -21,6 +21,16 @@ struct Arrays {
   Buffer<double> parameters;
 };
 
+/// Modules still to be looked up: [at, end) of the stack of lists, made by `depth` nested applications.
+struct Cursor {
+  std::size_t at = 0;
+  std::size_t end = 0;
+  std::size_t parameter = 0;        ///< of the module at `at`
+  std::size_t listBegin = 0;        ///< where the list starts, to give its room back
+  std::size_t parameterBegin = 0;
+  int depth = 0;
+};
+
 /// What one thread makes in a step of the plain way.
 struct Lane {
   Arrays own;                        ///< not used by the first lane, which writes in place
@@ -28,6 +38,9 @@ struct Lane {
   Buffer<SymbolCode> stack;
   std::vector<double> locals, frames;
   std::vector<std::pair<const CompiledRule*, double*>> applicable;
+  Arrays lists;                      ///< decomposition: lists within lists
+  std::vector<Cursor> cursors;
+  bool depthReached = false;
   std::size_t fired = 0;
   const CompiledRule* lastRule = nullptr;
   std::optional<Error> error;
@@ -56,6 +69,8 @@ struct Engine::State {
   std::unique_ptr<Workers> workers;
   std::vector<Lane> lanes;
   std::unique_ptr<Calm> calm;
+  double grownCodes = 0;           ///< modules and parameters that a module became in the last step, and a little more
+  double grownNumbers = 0;
   bool inPlace = false;            ///< the last step changed `string` itself
   const CompiledRule* lastRule = nullptr;  ///< one that fired lately; for messages
   Buffer<SymbolCode> rightCodes;   ///< right neighbour of every module
@@ -87,7 +102,7 @@ struct Engine::State {
   /// Many steps at once, where rules are so simple that they can be multiplied.
   [[nodiscard]] bool canLeap() const;
   [[nodiscard]] Result<Outcome> leap(std::int64_t count, std::vector<std::size_t>& modulesPerStep);
-  [[nodiscard]] Result<Image> makeImage();
+  [[nodiscard]] Result<Image> makeImage(const ModuleString& of);
   /// Instances for the `?` modules of the axiom.
   [[nodiscard]] Result<void> findVisits();
 };

@@ -4,8 +4,33 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 namespace axil::simeco {
+
+void* grownBlock(void* block, std::size_t used, std::size_t bytes) {
+  constexpr std::size_t largePage = std::size_t{1} << 21;
+  void* grown = nullptr;
+#if defined(__linux__)
+  if (bytes >= 2 * largePage) {
+    grown = std::aligned_alloc(largePage, (bytes + largePage - 1) / largePage * largePage);
+    if (grown == nullptr) throw std::bad_alloc();
+    // A wish only: without it the block works as well.
+    (void)madvise(grown, bytes, MADV_HUGEPAGE);
+    if (used > 0) std::memcpy(grown, block, used);
+    std::free(block);
+    return grown;
+  }
+#endif
+  grown = std::realloc(block, bytes);
+  if (grown == nullptr) throw std::bad_alloc();
+  (void)used;
+  return grown;
+}
 
 const std::vector<Symbol>& ModuleString::symbols() const {
   static const std::vector<Symbol> none;

@@ -21,6 +21,10 @@
 
 namespace axil::simeco {
 
+/// `block` with room for `bytes`, of which the first `used` are kept; large blocks come in large pages, since a derivation touches
+/// every page of a new string. To be given back with std::free.
+[[nodiscard]] void* grownBlock(void* block, std::size_t used, std::size_t bytes);
+
 /// Plain numbers in memory that grows without being written first: a derivation fills every element exactly once.
 /// A few bytes beyond the end may be written too (`slack`), so that short copies need no tail.
 template <class T>
@@ -54,9 +58,7 @@ class Buffer {
   /// Room for `count` elements; what is there stays.
   void reserve(std::size_t count) {
     if (count <= capacity_ && data_ != nullptr) return;
-    void* grown = std::realloc(data_, (count + slack) * sizeof(T));
-    if (grown == nullptr) throw std::bad_alloc();
-    data_ = static_cast<T*>(grown);
+    data_ = static_cast<T*>(grownBlock(data_, data_ == nullptr ? 0 : size_ * sizeof(T), (count + slack) * sizeof(T)));
     capacity_ = count;
   }
   /// At least double, so that appending one by one costs the same for each.
