@@ -399,6 +399,8 @@ const Preprocessed::Piece& Preprocessed::pieceAt(std::size_t offset) const {
 }
 
 SourceSpan Preprocessed::originOf(std::size_t begin, std::size_t end) const {
+  begin = std::min(begin, text.size());
+  end = std::clamp(end, begin, text.size());
   const Piece& first = pieceAt(begin);
   if (first.file != 0) return files_[static_cast<std::size_t>(first.file)].includedAt;
   SourceSpan span = first.origin;
