@@ -127,6 +127,14 @@ std::string statsText(const simeco::Derivation& derivation) {
              .dump() + "\n";
 }
 
+/// An L-system may ask where its turtle is, and its view file says where that starts.
+Result<simeco::Derivation> derived(const simeco::Grammar& grammar, const std::string& path, const simeco::DeriveOptions& options) {
+  if (grammar.language != simeco::Language::LSystem) return simeco::derive(grammar, options);
+  const auto view = simeco::viewBeside(path);
+  if (!view) return view.failure();
+  return simeco::deriveLSystem(grammar, {.derive = options, .view = *view});
+}
+
 std::string stringText(const simeco::Grammar& grammar, const simeco::Derivation& derivation) {
   return (grammar.language == simeco::Language::LSystem ? simeco::toLSystemText(derivation.string) : simeco::toText(derivation.string)) + "\n";
 }
@@ -143,7 +151,7 @@ int run(const DeriveCommand& command) {
   options.singlePrecision = command.singlePrecision;
   options.watch = terminalWatch();
   options.host.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); };
-  const auto derivation = simeco::derive(*grammar, options);
+  const auto derivation = derived(*grammar, command.grammar, options);
   if (!derivation) return report(derivation.error());
   for (const std::string& warning : derivation->warnings) std::fprintf(stderr, "%s: warning: %s\n", command.grammar.c_str(), warning.c_str());
   switch (command.print) {
@@ -169,7 +177,30 @@ struct Growing {
   double endTime = 0;
 };
 
+/// An L-system has no time of its own: its moments are its steps.
+Result<Growing> growingOfLSystem(const simeco::Grammar& grammar, const GrowCommand& command) {
+  const auto view = simeco::viewBeside(command.grammar);
+  if (!view) return view.failure();
+  simeco::LSystemPlantOptions options;
+  options.derive.view = *view;
+  options.derive.derive.seed = command.seed;
+  options.derive.derive.watch = terminalWatch();
+  options.derive.derive.steps = command.steps;
+  constexpr double kMostSteps = 1e9;  // the engine's own limit is lower
+  if (command.time) options.derive.derive.steps = static_cast<std::int64_t>(std::min(*command.time, kMostSteps));
+  const auto last = simeco::plantOfLSystem(grammar, options);
+  if (!last) return last.failure();
+  return Growing{[grammar, options, last = *last](double time) -> Result<Plant> {
+                   if (time >= last.time) return last;
+                   simeco::LSystemPlantOptions earlier = options;
+                   earlier.derive.derive.steps = static_cast<std::int64_t>(time);
+                   return simeco::plantOfLSystem(grammar, earlier);
+                 },
+                 last->time};
+}
+
 Result<Growing> growingOf(const simeco::Grammar& grammar, const GrowCommand& command) {
+  if (grammar.language == simeco::Language::LSystem) return growingOfLSystem(grammar, command);
   simeco::GrowOptions options;
   options.seed = command.seed;
   options.watch = terminalWatch();

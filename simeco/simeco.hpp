@@ -13,3 +13,7 @@
 #include "simeco/derive.hpp"            // a grammar's string, step by step
 #include "simeco/plant.hpp"             // a plant at one moment: organs with frames, sizes, ages
 #include "simeco/growth.hpp"            // a grammar grown over continuous time
+#include "simeco/lsystem_view.hpp"      // what an L-system's turtle starts with
+#include "simeco/lsystem_turtle.hpp"    // a string drawn into a sink
+#include "simeco/lsystem_derive.hpp"    // L-systems that ask where their turtle is
+#include "simeco/lsystem_plant.hpp"     // an L-system as a plant
