@@ -11,26 +11,9 @@ namespace axil::document {
 
 namespace {
 
-struct Line {
-  int number = 0;
-  std::string_view text;
-};
-
 bool counts(std::string_view line) {
   const std::size_t first = line.find_first_not_of(" \t\r");
   return first != std::string_view::npos && line[first] != '#';
-}
-
-std::vector<Line> linesOf(std::string_view text) {
-  std::vector<Line> lines;
-  int number = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const Line line{++number, text.substr(0, end)};
-    if (counts(line.text)) lines.push_back(line);
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
 }
 
 std::string moveText(const char* word, std::size_t steps) { return steps == 1 ? word : std::string(word) + " " + std::to_string(steps); }
@@ -51,12 +34,6 @@ Result<void> performLine(History& history, std::string_view text) {
   if (!action) return action.failure();
   const auto done = perform(history, *action);
   return done ? Result<void>() : done.failure();
-}
-
-std::string numbered(const Line& line, const Error& error) {
-  constexpr std::size_t kShown = 120;
-  const std::string shown = line.text.size() > kShown ? std::string(line.text.substr(0, kShown)) + ".." : std::string(line.text);
-  return "line " + std::to_string(line.number) + " (" + shown + "): " + error.message;
 }
 
 }  // namespace
@@ -86,17 +63,35 @@ Result<History::Ran> perform(History& history, const Action& action) {
                     action);
 }
 
+std::vector<NumberedLine> linesThatCount(std::string_view text) {
+  std::vector<NumberedLine> lines;
+  int number = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const NumberedLine line{++number, text.substr(0, end)};
+    if (counts(line.text)) lines.push_back(line);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+std::string inLine(const NumberedLine& line, const Error& error) {
+  constexpr std::size_t kShown = 120;
+  const std::string shown = line.text.size() > kShown ? std::string(line.text.substr(0, kShown)) + ".." : std::string(line.text);
+  return "line " + std::to_string(line.number) + " (" + shown + "): " + error.message;
+}
+
 Result<History> replay(const Project& project, std::string_view lines) {
   History history(project);
-  for (const Line& line : linesOf(lines))
-    if (const auto done = performLine(history, line.text); !done) return fail(done.error().code, numbered(line, done.error()));
+  for (const NumberedLine& line : linesThatCount(lines))
+    if (const auto done = performLine(history, line.text); !done) return fail(done.error().code, inLine(line, done.error()));
   return history;
 }
 
 Replayed replayWhatApplies(const Project& project, std::string_view lines) {
   Replayed replayed{History(project), {}};
-  for (const Line& line : linesOf(lines))
-    if (const auto done = performLine(replayed.history, line.text); !done) replayed.faults.push_back(numbered(line, done.error()));
+  for (const NumberedLine& line : linesThatCount(lines))
+    if (const auto done = performLine(replayed.history, line.text); !done) replayed.faults.push_back(inLine(line, done.error()));
   return replayed;
 }
 

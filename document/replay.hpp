@@ -28,6 +28,14 @@ using Action = std::variant<Step, Undo, Redo>;
 [[nodiscard]] std::string printAction(const Action& action);
 [[nodiscard]] Result<History::Ran> perform(History& history, const Action& action);
 
+/// The lines of a text that count, and the sentence for what went wrong in one: `line 12 (undo): there is nothing to undo`.
+struct NumberedLine {
+  int number = 0;  ///< from 1, of all lines
+  std::string_view text;
+};
+[[nodiscard]] std::vector<NumberedLine> linesThatCount(std::string_view lines);
+[[nodiscard]] std::string inLine(const NumberedLine& line, const Error& error);
+
 /// The history after all lines, from `project` on. Fails at the first line that cannot be read or done: `line 12: ...`.
 [[nodiscard]] Result<History> replay(const Project& project, std::string_view lines);
 
