@@ -14,6 +14,7 @@ namespace axil::document {
 using Json = nlohmann::ordered_json;
 using skeleton3d::Camera;
 using skeleton3d::CameraModel;
+using skeleton3d::KnownLength;
 using skeleton3d::NodeId;
 using skeleton3d::StemId;
 
@@ -203,7 +204,7 @@ const char* modelName(CameraModel model) {
 
 Json rotationJson(const glm::dmat3& r) {
   Json rows = Json::array();
-  for (int row = 0; row < 3; ++row) rows.push_back({r[0][row], r[1][row], r[2][row]});
+  for (int row = 0; row < 3; ++row) rows.push_back({r[0][row] + 0.0, r[1][row] + 0.0, r[2][row] + 0.0});  // + 0.0: no -0
   return rows;
 }
 

@@ -25,19 +25,11 @@ namespace axil::document {
 /// Keys of a JSON object that the program does not know, each with its value as JSON text.
 using Extras = std::map<std::string, std::string>;
 
-/// A length the user knows, clicked in a photo.
-struct KnownLength {
-  PhotoPoint from;
-  PhotoPoint to;
-  double length = 0;
-  friend bool operator==(const KnownLength&, const KnownLength&) = default;
-};
-
 struct ProjectView {
   skeleton3d::View view;                ///< name, camera, size in px (0, 0 where the file does not say)
   std::string photo;                    ///< path, relative to the project's folder or absolute; empty: no photo
   std::optional<PhotoPoint> origin_px;  ///< where the plant's collar is seen
-  std::optional<KnownLength> scale;
+  std::optional<skeleton3d::KnownLength> scale;
   Extras extras;
   Extras cameraExtras;
   friend bool operator==(const ProjectView&, const ProjectView&) = default;

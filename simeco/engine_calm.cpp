@@ -27,13 +27,14 @@ void Calm::readTables(const ModuleString& string) {
   const std::span<const SymbolCode> codes = string.codes();
   left_.setSize(codes.size());
   right_.setSize(codes.size());
-  if (plans_.parameters) offset_.setSize(codes.size());
+  withOffsets_ = !string.parameters().empty();
+  if (withOffsets_) offset_.setSize(codes.size());
   std::uint32_t last = nowhere, offset = 0;
   // The stack holds, for every open bracket, its place and the left neighbour before it.
   stack_.clear();
   for (std::uint32_t i = 0; i < codes.size(); ++i) {
     const SymbolCode code = codes[i];
-    if (plans_.parameters) offset_[i] = offset;
+    if (withOffsets_) offset_[i] = offset;
     offset += program_.parameterCount[code];
     left_[i] = last;
     if (role(code) == Plans::Considered) last = i;
@@ -80,7 +81,7 @@ bool Calm::decide(const ModuleString& string, std::uint32_t at, Machine& machine
   const std::span<const SymbolCode> codes = string.codes();
   const SymbolCode code = codes[at];
   const Plan& plan = plans_.bySymbol[code];
-  double* const locals = const_cast<double*>(string.parameters().data()) + (plans_.parameters ? offset_[at] : 0);
+  double* const locals = const_cast<double*>(string.parameters().data()) + (withOffsets_ ? offset_[at] : 0);
   const auto holds = [&](const CompiledRule& rule) {
     for (const Demand& demand : rule.predecessor.front().demands)
       if (locals[demand.offset] != demand.value) return false;

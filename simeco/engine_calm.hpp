@@ -53,6 +53,7 @@ class Calm {
   // Neighbours of every module that is no bracket; for brackets left_ holds the partner.
   Buffer<std::uint32_t> left_, right_, offset_;
   Buffer<std::uint32_t> stack_;
+  bool withOffsets_ = false;         ///< there are parameters
   bool known_ = false;               ///< tables and candidates describe the string
   std::vector<std::uint32_t> candidates_;
   std::vector<Change> changes_;

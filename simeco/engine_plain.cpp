@@ -194,7 +194,7 @@ class PartPass {
   /// Block by block: room for the longest that a block can become is made before it, so that nothing inside has to ask.
   template <class Rewrite>
   void eachBlock(std::size_t begin, std::size_t end, Rewrite rewriteBlock) {
-    constexpr std::size_t blockModules = 1 << 16;
+    constexpr std::size_t blockModules = 1 << 14;
     const std::size_t block = std::clamp<std::size_t>(blockModules / std::max(plans_.longest, plans_.most), 1, 2048);
     room_ = block;
     LeftFringe fringe(plans_, old_.codes, begin);
@@ -376,7 +376,7 @@ class PartPass {
     return true;
   }
   bool putSlowly(Pen& pen, const QuickSuccessor& successor, std::size_t at) {
-    if (successor.random || plans_.decomposes) machine_.setRandom(successors_.split(step_, at));
+    if (successor.random || plans_.decomposesByChance) machine_.setRandom(successors_.split(step_, at));
     pen_ = pen;
     const bool fine = writeSuccessor(*successor.rule, *successor.successor, const_cast<double*>(pen.in), at);
     pen = pen_;
@@ -465,7 +465,7 @@ class PartPass {
   }
   /// A rule with one successor.
   bool write(const CompiledRule& rule, double* locals, std::size_t at) {
-    if (rule.random || plans_.decomposes) machine_.setRandom(successors_.split(step_, at));
+    if (rule.random || plans_.decomposesByChance) machine_.setRandom(successors_.split(step_, at));
     return writeSuccessor(rule, rule.successors.front(), locals, at);
   }
 
@@ -476,13 +476,13 @@ class PartPass {
   }
   /// A module without production: a list of one.
   bool keep(SymbolCode code, std::size_t parameters, std::size_t at) {
-    machine_.setRandom(successors_.split(step_, at));
+    if (plans_.decomposesByChance) machine_.setRandom(successors_.split(step_, at));
     Arrays& lists = lane_.lists;
     lane_.cursors.push_back({0, 1, 0, 0, 0, 0});
     lists.codes.reserveMore(1);
     lists.codes[0] = code;
     lists.codes.setSize(1);
-    lists.parameters.reserveMore(parameters + 1);
+    lists.parameters.reserveMore(parameters + 1);  // so that there always is a place to read from
     copyNumbers(lists.parameters.data(), pen_.in, parameters);
     lists.parameters.setSize(parameters);
     return decompose(at);
@@ -508,48 +508,79 @@ class PartPass {
     lane_.error = s_.tooMany("modules", s_.options.limits.modules, &rule).error;
     return false;
   }
-  /// Room for one more module here, and for the rest of the block as it was promised.
-  void makeRoom() {
+  /// Room for `modules` with `numbers` parameters here, and for the rest of the block as it was promised.
+  void makeRoom(std::size_t modules, std::size_t numbers) {
     Arrays& out = *lane_.out;
-    const auto codes = static_cast<std::size_t>(pen_.to - out.codes.data()), numbers = static_cast<std::size_t>(pen_.numbers - out.parameters.data());
-    if (codes + room_ * plans_.longest < out.codes.capacity() && numbers + (room_ + 1) * plans_.most < out.parameters.capacity()) return;
-    out.codes.setSize(codes);  // what is written is kept
-    out.parameters.setSize(numbers);
-    out.codes.reserveMore(codes + (room_ + 1) * plans_.longest);
-    out.parameters.reserveMore(numbers + (room_ + 2) * plans_.most);
-    pen_.to = out.codes.data() + codes;
-    pen_.numbers = out.parameters.data() + numbers;
+    const auto codesNow = static_cast<std::size_t>(pen_.to - out.codes.data()), numbersNow = static_cast<std::size_t>(pen_.numbers - out.parameters.data());
+    const std::size_t codesThen = codesNow + modules + room_ * plans_.longest, numbersThen = numbersNow + numbers + room_ * plans_.most;
+    if (codesThen <= out.codes.capacity() && numbersThen <= out.parameters.capacity()) return;
+    out.codes.setSize(codesNow);  // what is written is kept
+    out.parameters.setSize(numbersNow);
+    out.codes.reserveMore(codesThen);
+    out.parameters.reserveMore(numbersThen);
+    pen_.to = out.codes.data() + codesNow;
+    pen_.numbers = out.parameters.data() + numbersNow;
+  }
+  /// Copies the modules at the cursor up to the first that decomposition rules know.
+  void copyListed(Cursor& cursor) {
+    const Arrays& lists = lane_.lists;
+    makeRoom(cursor.end - cursor.at, lists.parameters.size() - cursor.parameter);
+    const SymbolCode* const codes = lists.codes.data();
+    const double* from = lists.parameters.data() + cursor.parameter;
+    const Hot* const hots = plans_.hot.data();
+    SymbolCode* to = pen_.to;
+    double* numbers = pen_.numbers;
+    std::size_t at = cursor.at;
+    for (; at < cursor.end && !hots[codes[at]].decomposes; ++at) {
+      const std::size_t count = hots[codes[at]].parameters;
+      *to++ = codes[at];
+      std::memcpy(numbers, from, 2 * sizeof(double));
+      for (std::size_t i = 2; i < count; ++i) numbers[i] = from[i];
+      numbers += count;
+      from += count;
+    }
+    cursor.at = at;
+    cursor.parameter = static_cast<std::size_t>(from - lists.parameters.data());
+    pen_.to = to;
+    pen_.numbers = numbers;
+  }
+  void keepListed(Cursor& cursor) {
+    const SymbolCode code = lane_.lists.codes[cursor.at];
+    const std::size_t count = plans_.hot[code].parameters;
+    makeRoom(1, count);
+    *pen_.to++ = code;
+    copyNumbers(pen_.numbers, lane_.lists.parameters.data() + cursor.parameter, count);
+    pen_.numbers += count;
+    cursor.parameter += count;
+    ++cursor.at;
+  }
+  bool mayGoOnListing() {
+    constexpr std::size_t betweenLooks = 1 << 14;
+    if (++listed_ % betweenLooks == 0)
+      if (auto go = s_.mayGoOn(); !go) lane_.error = go.error();
+    if (lane_.error) return false;
+    const auto made = static_cast<std::size_t>(pen_.to - lane_.out->codes.data());
+    return made <= s_.options.limits.modules || tooMany(rule_ == nullptr ? program_.main().decomposition.rules.front() : *rule_);
   }
   bool decompose(std::size_t at) {
     const RuleTable& table = program_.main().decomposition;
-    Arrays& lists = lane_.lists;
-    constexpr std::size_t betweenLooks = 1 << 16;
     while (!lane_.cursors.empty()) {
       Cursor& cursor = lane_.cursors.back();
+      copyListed(cursor);
+      if (!mayGoOnListing()) return false;
       if (cursor.at == cursor.end) {
-        lists.codes.setSize(cursor.listBegin);
-        lists.parameters.setSize(cursor.parameterBegin);
+        lane_.lists.codes.setSize(cursor.listBegin);
+        lane_.lists.parameters.setSize(cursor.parameterBegin);
         lane_.cursors.pop_back();
         continue;
       }
-      const SymbolCode code = lists.codes[cursor.at];
-      const std::size_t count = plans_.hot[code].parameters;
-      if (++listed_ % betweenLooks == 0)
-        if (auto go = s_.mayGoOn(); !go) lane_.error = go.error();
+      const std::size_t count = plans_.hot[lane_.lists.codes[cursor.at]].parameters;
+      const CompiledRule* rule = decomposing(table, cursor, count, at);
       if (lane_.error) return false;
-      const CompiledRule* rule = plans_.hot[code].decomposes ? decomposing(table, cursor, count, at) : nullptr;
-      if (lane_.error) return false;
-      if (rule != nullptr) {
-        if (!expand(*rule, count)) return false;
-        continue;
-      }
-      makeRoom();
-      *pen_.to++ = code;
-      copyNumbers(pen_.numbers, lists.parameters.data() + cursor.parameter, count);
-      pen_.numbers += count;
-      cursor.parameter += count;
-      ++cursor.at;
-      if (static_cast<std::size_t>(pen_.to - lane_.out->codes.data()) > s_.options.limits.modules) return tooMany(rule_ == nullptr ? table.rules.front() : *rule_);
+      if (rule == nullptr)
+        keepListed(cursor);
+      else if (!expand(*rule, count))
+        return false;
     }
     return true;
   }

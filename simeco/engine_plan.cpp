@@ -43,7 +43,10 @@ class Planner {
       plans_->hot[code].role = program_.opens[code] ? Plans::Opens : program_.closes[code] ? Plans::Closes : main_.ignored[code] ? Plans::Ignored : Plans::Considered;
     plans_->decomposes = !main_.decomposition.empty();
     for (std::size_t code = 0; code < plans_->codes; ++code) plans_->hot[code].decomposes = !main_.decomposition.bySymbol[code].all.empty();
-    for (const CompiledRule& rule : main_.decomposition.rules) addNeeds(rule);
+    for (const CompiledRule& rule : main_.decomposition.rules) {
+      addNeeds(rule);
+      plans_->decomposesByChance = plans_->decomposesByChance || rule.random || rule.randomCondition;
+    }
     for (std::size_t code = 0; code < plans_->codes; ++code) planSymbol(code);
     // The tables are in place now and do not move any more.
     for (std::size_t code = 0; code < plans_->codes; ++code)

@@ -99,6 +99,7 @@ struct Plans {
   bool rightCodes = false;
   SurroundingNeeds needs;                       ///< of the symbols with Kind::Rules
   bool decomposes = false;                      ///< there are decomposition rules
+  bool decomposesByChance = false;              ///< one of them draws
   bool parameters = false;                      ///< some symbol has parameters
   bool bytes = false;                           ///< no parameters, nothing to compute: `entries` say it all
   std::array<ByteSymbol, 256> byteSymbols;

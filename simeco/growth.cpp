@@ -278,12 +278,16 @@ class Recorder {
     // `module` counts modules of the old string, `view` walks over the new one.
     std::size_t module = 0, made = 0;
     auto view = engine_.string().begin();
+    bool cutting = false;
     for (const Piece& piece : before) {
       if (!piece.module) {
+        // A body that stayed behind goes with the modules around it.
+        if (cutting) cutOff(piece.body);
         pieces_.push_back(piece);
         continue;
       }
       const std::int32_t rule = trace.rule[module];
+      cutting = rule == StepTrace::removed;
       const std::size_t end = trace.begin[module + 1];
       ++module;
       if (rule == StepTrace::copied) {
@@ -293,8 +297,11 @@ class Recorder {
         ++made;
         continue;
       }
-      if (piece.body >= 0) leaveBehind(piece.body, rule == StepTrace::removed);
-      if (piece.body >= 0) pieces_.push_back({piece.body, false});
+      if (piece.body >= 0) {
+        bodies_[static_cast<std::size_t>(piece.body)].rewritten = engine_.stepsDone();
+        if (cutting) cutOff(piece.body);
+        pieces_.push_back({piece.body, false});
+      }
       for (; made < end; ++made, ++view)
         if (auto done = addModule(*view, made, rule); !done) return done;
     }
@@ -376,10 +383,9 @@ class Recorder {
     auto& modules = bodies_[static_cast<std::size_t>(body)].modules;
     if (modules.back().second != static_cast<std::int64_t>(module)) modules.emplace_back(engine_.stepsDone(), static_cast<std::int64_t>(module));
   }
-  void leaveBehind(std::int32_t body, bool removed) {
-    Body& b = bodies_[static_cast<std::size_t>(body)];
-    b.rewritten = engine_.stepsDone();
-    if (removed) b.gone = engine_.stepsDone();
+  void cutOff(std::int32_t body) {
+    std::int64_t& gone = bodies_[static_cast<std::size_t>(body)].gone;
+    gone = std::min(gone, engine_.stepsDone());
   }
 
   /// Where the turtle stands while it reads the pieces.

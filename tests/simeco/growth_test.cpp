@@ -148,6 +148,19 @@ TEST(Growth, TheEnvironmentActsThroughBellCurvesThatAreOneAtTheAppendixValues) {
   EXPECT_DOUBLE_EQ(lengthWith("SoilPH = 5.0; SoilPHWidth = 2.0;"), std::exp(-0.5));
 }
 
+TEST(Growth, ACutTakesTheRestOfItsBranchAndTheBodiesThatStayedBehindThere) {
+  // Step 1 makes the cut and rewrites S(1), whose body stays; step 2 cuts both off, the stem below and the other branch stay.
+  const Growth growth = grown(grammarOf(plantText("", kStems, kLeaves, "w = S(2) [rotr(0.5) S(2) A(0) S(1) L(1)] S(2); A(0) -> % ; S(1) -> S(2) ;")));
+  EXPECT_EQ(at(growth, 0.5).organs.size(), 5u);
+  EXPECT_EQ(at(growth, 1.5).organs.size(), 6u);
+  const Plant plant = at(growth, 2);
+  ASSERT_EQ(plant.organs.size(), 3u);
+  EXPECT_EQ(countOf(plant, OrganKind::Leaf), 0u);
+  EXPECT_TRUE(plant.organs[1].branch);
+  EXPECT_EQ(plant.organs[2].parent, OrganId(0));
+  EXPECT_EQ(at(growth, 1.5).organs.size(), 6u);
+}
+
 TEST(Growth, SeveralPlantsShareOneEcosystem) {
   const std::string stems = "Stem { Stage 1 { GrowRate = 1.0; GrowTime = 1.0; } }";
   const Grammar grammar = grammarOf("EcoSystem 1.1 \"e\" { Plant \"a\" { " + stems + " Grow { w = S(1); S(1) -> S(1001) ; } } Plant \"b\" { Position = vector(5, 0, 0); " +
