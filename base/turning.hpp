@@ -31,6 +31,7 @@ enum class ChildKind { Main, Branch };
 struct Turn {
   Angle rotr;
   Angle rotu;
+  friend bool operator==(const Turn&, const Turn&) = default;
 };
 
 /// The frame of a child turned by `turn`.
