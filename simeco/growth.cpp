@@ -31,7 +31,6 @@ struct Placement {
   std::int32_t parent = -1;
   bool branch = false;
   Turn turn;
-  friend bool operator==(const Placement&, const Placement&) = default;
 };
 
 constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
