@@ -9,6 +9,16 @@ find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonTransf
              RenderingCore RenderingOpenGL2 RenderingFreeType InteractionStyle IOImage)
 find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
 find_package(GLEW REQUIRED)
+# Debian's Dear ImGui 1.86 has no CMake config; its library holds the GLFW and OpenGL 3 backends, std::string fields and FreeType.
+find_package(glfw3 3.3 REQUIRED)
+find_package(Freetype REQUIRED)
+find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)
+find_library(IMGUI_LIBRARY imgui REQUIRED)
+find_library(STB_LIBRARY stb REQUIRED)
+add_library(imgui::imgui STATIC IMPORTED)
+set_target_properties(imgui::imgui PROPERTIES IMPORTED_LOCATION ${IMGUI_LIBRARY}
+                      INTERFACE_INCLUDE_DIRECTORIES "${IMGUI_INCLUDE_DIR};${IMGUI_INCLUDE_DIR}/backends")
+target_link_libraries(imgui::imgui INTERFACE ${STB_LIBRARY} glfw Freetype::Freetype OpenGL::OpenGL ${CMAKE_DL_LIBS})
 find_package(TinyGLTF REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)

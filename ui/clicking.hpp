@@ -1,0 +1,51 @@
+#pragma once
+/// \file
+/// What a click in a photo would do, before it is done: the status line says it, the click does it. There are no modes to enter; the
+/// selected node decides.
+///
+/// - On a node: it is selected.
+/// - With a selected node that has no click in this photo yet: it gets one, and the next node of its stem that lacks one here is selected.
+/// - With a selected tip: its stem goes on with a new node. With a selected node in the middle: a branch begins at it.
+/// - With nothing selected: the first stem of the plant begins; where there is one already, nothing happens.
+
+#include "document/command.hpp"
+
+#include <optional>
+#include <string>
+
+namespace axil::ui {
+
+struct Selection {
+  std::optional<document::NodeId> node;
+  friend bool operator==(const Selection&, const Selection&) = default;
+};
+
+enum class ClickKind { Nothing, Select, Place, Extend, Branch, Begin };
+
+struct ClickMeaning {
+  ClickKind kind = ClickKind::Nothing;
+  document::Step step = {};              ///< empty for Nothing and Select
+  Selection after = {};
+  std::optional<document::NodeId> node = {};  ///< the node it is about
+  std::optional<document::StemId> stem = {};  ///< the stem that grows
+};
+
+/// PickNodes: a node within `reach_px` is selected. OnlyPlace: nodes nearby are passed over, to place a click close to one.
+enum class Picking { PickNodes, OnlyPlace };
+
+struct PhotoClick {
+  std::string view;
+  PhotoPoint at;
+  double reach_px = 8;  ///< px of the photo
+  Picking picking = Picking::PickNodes;
+};
+
+[[nodiscard]] ClickMeaning meaningOf(const document::Project& project, const Selection& selection, const PhotoClick& click);
+
+/// The node with the nearest click in the view, within reach.
+[[nodiscard]] std::optional<document::NodeId> nodeAt(const document::Project& project, const PhotoClick& click);
+
+/// The stem to which a node's colour and its neighbours belong: the one it is on beyond its beginning, else the first that begins with it.
+[[nodiscard]] std::optional<document::StemId> stemOf(const document::Project& project, document::NodeId node);
+
+}  // namespace axil::ui

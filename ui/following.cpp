@@ -1,0 +1,89 @@
+#include "ui/following.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace axil::ui {
+namespace {
+
+using document::GrammarKind;
+
+constexpr GrammarKind kKinds[] = {GrammarKind::Initial, GrammarKind::Predictive, GrammarKind::Structured};
+
+/// Where a plant stands and how far it reaches, so that a camera can be put before it.
+void measureReach(GrownGrammar& grown, const simeco::Plant& plant) {
+  render::Bounds box;
+  for (const simeco::Organ& organ : plant.organs) {
+    box.add(organ.base.at);
+    box.add(organ.tip().at);
+  }
+  if (box.empty()) return;
+  grown.middle = {box.centre()};
+  grown.reach = std::max(glm::length(box.size()) / 2, 1e-9);
+}
+
+std::shared_ptr<const GrownGrammar> grow(const simeco::Grammar& grammar, std::string text, std::uint64_t seed) {
+  auto grown = std::make_shared<GrownGrammar>();
+  grown->text = std::move(text);
+  const simeco::Parsed parsed = simeco::parseSimeco(grown->text);
+  grown->diagnostics = parsed.diagnostics;
+  for (const Diagnostic& d : simeco::check(parsed.grammar)) grown->diagnostics.push_back(d);
+  const auto growth = simeco::prepareGrowth(grammar, {.seed = seed});
+  if (!growth) {
+    grown->trouble = growth.error();
+    return grown;
+  }
+  grown->growth = *growth;
+  grown->end = simeco::completeTime(*growth);
+  if (const auto plant = simeco::plantAt(*growth, grown->end)) measureReach(*grown, *plant);
+  else grown->trouble = plant.error();
+  return grown;
+}
+
+/// A grammar that has been grown, and what it was made of.
+struct Kept {
+  std::shared_ptr<const simeco::Grammar> grammar;
+  std::uint64_t seed = 0;
+  std::shared_ptr<const GrownGrammar> grown;
+};
+
+class Follow {
+ public:
+  std::shared_ptr<const Following> operator()(const FollowQuestion& question) {
+    const auto begun = std::chrono::steady_clock::now();
+    auto following = std::make_shared<Following>();
+    following->revision = question.revision;
+    if (auto said = keywords::readTraits(question.open.project.description); said) following->said = std::move(*said);
+    following->measured = derived_.measured(question.open);
+    following->skeleton = derived_.skeleton(question.open);
+    following->measurements = derived_.measurements(question.open);
+    following->photos = derived_.photoTroubles(question.open);
+    for (const GrammarKind kind : kKinds) addGrammar(*following, question, kind);
+    following->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    return following;
+  }
+
+ private:
+  void addGrammar(Following& following, const FollowQuestion& question, GrammarKind kind) {
+    const auto at = static_cast<std::size_t>(kind);
+    const auto grammar = derived_.grammar(question.open, kind);
+    const auto text = derived_.grammarText(question.open, kind);
+    following.grammarTroubles[at] = grammar.trouble;
+    const std::uint64_t seed = question.open.project.seed;
+    Kept& kept = kept_[at];
+    if (grammar.good && text.good && (kept.grammar != grammar.good || kept.seed != seed)) kept = {grammar.good, seed, grow(*grammar.good, *text.good, seed)};
+    following.grammars[at] = kept.grown;
+  }
+
+  document::Derived derived_;
+  std::array<Kept, 3> kept_;
+};
+
+}  // namespace
+
+Follower::Work followingWork() {
+  auto follow = std::make_shared<Follow>();
+  return [follow](const FollowQuestion& question) { return (*follow)(question); };
+}
+
+}  // namespace axil::ui

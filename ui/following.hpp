@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// What follows from the project, worked out in the background: cameras, skeleton, numbers, grammars, and their growth ready to be shown
+/// at any time. Every answer keeps the last good value beside the trouble of the present project.
+
+#include "document/derived.hpp"
+#include "render/types.hpp"
+#include "simeco/growth.hpp"
+#include "simeco/language.hpp"
+#include "ui/worker.hpp"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace axil::ui {
+
+/// A grammar as text, what is wrong with it, and its growth.
+struct GrownGrammar {
+  std::string text;
+  std::vector<Diagnostic> diagnostics;   ///< of the text, read back
+  std::optional<simeco::Growth> growth;
+  double end = 0;                        ///< when all is grown
+  PlantPoint middle;                     ///< of the grown plant
+  double reach = 1;                      ///< of the grown plant, from its middle
+  std::optional<Error> trouble;          ///< why it does not grow
+};
+
+struct Following {
+  std::uint64_t revision = 0;            ///< of the project it was worked out from
+  std::optional<keywords::Traits> said;  ///< all that the description says, before any decision
+  document::Shown<document::Measured> measured;
+  document::Shown<skeleton3d::Skeleton> skeleton;
+  document::Shown<quantify::Measurements> measurements;
+  std::vector<document::PhotoTrouble> photos;
+  std::array<std::shared_ptr<const GrownGrammar>, 3> grammars;       ///< by GrammarKind; null: there has not been one yet
+  std::array<std::optional<Error>, 3> grammarTroubles;
+  double seconds = 0;                    ///< how long it took
+
+  [[nodiscard]] const GrownGrammar* grammar(document::GrammarKind kind) const { return grammars[static_cast<std::size_t>(kind)].get(); }
+};
+
+struct FollowQuestion {
+  document::OpenProject open;
+  std::uint64_t revision = 0;
+};
+
+using Follower = Worker<FollowQuestion, std::shared_ptr<const Following>>;
+/// What a Follower does, question after question; what has not changed is kept between them.
+[[nodiscard]] Follower::Work followingWork();
+
+}  // namespace axil::ui

@@ -1,0 +1,77 @@
+#pragma once
+/// \file
+/// Panels: each is a function of the project, of what follows from it and of UiState. It draws itself and gives the step that the user
+/// took, if any; it changes nothing but UiState. Panels are drawn inside a frame of the window library and nowhere else.
+
+#include "document/session.hpp"
+#include "ui/following.hpp"
+#include "ui/photos.hpp"
+#include "ui/state.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace axil::ui {
+
+/// What runs outside the project.
+struct ExportState {
+  bool running = false;
+  std::string what;
+  double share = 0;
+  std::optional<std::string> done;  ///< folder of the last one that went well
+};
+
+/// All that a panel may look at.
+struct Panel {
+  const document::Session& session;
+  const document::Project& project;
+  const Following& following;
+  const Photos& photos;
+  const Texts& texts;
+  const Palette& palette;
+  const Texture& plantPicture;
+  const ExportState& exporting;
+  UiState& state;
+
+  [[nodiscard]] const char* t(std::string_view key) const { return texts(key, state.language); }
+  [[nodiscard]] float px(float designed) const { return designed * state.scale; }
+};
+
+struct Area {
+  float x = 0, y = 0, width = 0, height = 0;
+};
+
+using Taken = std::optional<document::Step>;
+
+// ---- left: what belongs to each part of the way ------------------------------------------------------------------------
+void wayPanel(const Panel& panel);
+[[nodiscard]] Taken describePanel(const Panel& panel);
+[[nodiscard]] Taken photosPanel(const Panel& panel);
+[[nodiscard]] Taken stemsPanel(const Panel& panel);
+[[nodiscard]] Taken leavesPanel(const Panel& panel);
+[[nodiscard]] Taken grammarPanel(const Panel& panel);
+[[nodiscard]] Taken growPanel(const Panel& panel);
+
+// ---- centre --------------------------------------------------------------------------------------------------------------
+/// The views' places in the panes: front, right and top first, others where a place is free; -1: none.
+[[nodiscard]] std::array<int, 3> viewsOfPanes(const document::Project& project);
+[[nodiscard]] Taken photoPane(const Panel& panel, int pane, Area area);
+void plantPane(const Panel& panel, Area area);
+[[nodiscard]] Taken descriptionText(const Panel& panel, Area area);
+void grammarText(const Panel& panel, Area area);
+void welcome(const Panel& panel, Area area);
+
+// ---- right, bottom, on top -----------------------------------------------------------------------------------------------
+[[nodiscard]] Taken inspector(const Panel& panel);
+void timeline(const Panel& panel, Area area);
+void shortcutsSheet(const Panel& panel);
+void historySheet(const Panel& panel);
+/// Unsaved work, or work left by a crash: one question, its answers are wishes.
+void questionSheet(const Panel& panel);
+[[nodiscard]] Taken fileDialog(const Panel& panel);
+
+/// Where samples are: beside the program when it is installed, else in the source tree. Empty where there are none.
+[[nodiscard]] std::filesystem::path samplesFolder();
+
+}  // namespace axil::ui

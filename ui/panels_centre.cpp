@@ -1,0 +1,244 @@
+#include "base/text.hpp"
+#include "ui/widgets_interop.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <imgui_stdlib.h>
+
+namespace axil::ui {
+namespace {
+
+// ---- the description with what was found in it --------------------------------------------------------------------------------
+
+/// Pieces that may stand at a line's end: a Latin word with the blanks after it, or one Chinese character.
+std::vector<SourceSpan> piecesOf(std::string_view text) {
+  std::vector<SourceSpan> pieces;
+  for (std::uint32_t at = 0; at < text.size();) {
+    std::uint32_t end = at + static_cast<std::uint32_t>(utf8Length(text[at]));
+    if (static_cast<unsigned char>(text[at]) < 0x80 && text[at] != '\n')
+      while (end < text.size() && static_cast<unsigned char>(text[end]) < 0x80 && text[end - 1] != ' ' && text[end] != '\n') ++end;
+    end = std::min(end, static_cast<std::uint32_t>(text.size()));
+    pieces.push_back({at, end});
+    at = end;
+  }
+  return pieces;
+}
+
+const keywords::Trait* traitAt(const Panel& panel, std::uint32_t byte, std::size_t& index) {
+  if (!panel.following.said) return nullptr;
+  for (index = 0; index < panel.following.said->size(); ++index)
+    if (const auto& trait = (*panel.following.said)[index]; trait.span.begin <= byte && byte < trait.span.end) return &trait;
+  return nullptr;
+}
+
+/// A piece may be partly found: it is drawn character by character where it is.
+void drawPiece(const Panel& panel, ImDrawList& list, std::string_view text, SourceSpan piece, ImVec2 at) {
+  for (std::uint32_t byte = piece.begin; byte < piece.end;) {
+    std::size_t index = 0;
+    const keywords::Trait* trait = traitAt(panel, byte, index);
+    std::uint32_t end = byte;
+    for (std::size_t other = 0; end < piece.end && (traitAt(panel, end, other) == nullptr ? nullptr : &(*panel.following.said)[other]) == trait;)
+      end += static_cast<std::uint32_t>(utf8Length(text[end]));
+    end = std::min(end, piece.end);
+    const ImVec2 size = ImGui::CalcTextSize(text.data() + byte, text.data() + end);
+    if (trait != nullptr) {
+      const bool hot = panel.state.hotTrait == index;
+      list.AddRectFilled({at.x, at.y - 1}, {at.x + size.x, at.y + size.y + 1}, hot ? panel.palette.accent : panel.palette.accentSoft, 2);
+      list.AddText(at, hot ? panel.palette.onAccent : panel.palette.accent, text.data() + byte, text.data() + end);
+    } else {
+      list.AddText(at, panel.palette.text, text.data() + byte, text.data() + end);
+    }
+    at.x += size.x;
+    byte = std::max(end, byte + 1);
+  }
+}
+
+void highlighted(const Panel& panel, std::string_view text, float width) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 start = ImGui::GetCursorScreenPos();
+  const float line = ImGui::GetFontSize() * 1.65f;
+  ImVec2 at = start;
+  for (const SourceSpan piece : piecesOf(text)) {
+    if (text[piece.begin] == '\n') {
+      at = {start.x, at.y + line};
+      continue;
+    }
+    const float w = ImGui::CalcTextSize(text.data() + piece.begin, text.data() + piece.end).x;
+    if (at.x > start.x && at.x + w > start.x + width) at = {start.x, at.y + line};
+    drawPiece(panel, list, text, piece, at);
+    at.x += w;
+  }
+  ImGui::Dummy({width, at.y + line - start.y});
+}
+
+}  // namespace
+
+Taken descriptionText(const Panel& panel, Area area) {
+  Taken taken;
+  UiState& state = panel.state;
+  ImGui::SetCursorScreenPos({area.x, area.y});
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, panel.palette.panel);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {panel.px(26), panel.px(22)});
+  ImGui::BeginChild("##description", {area.width, area.height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  heading(panel, "description");
+  quiet(panel, panel.t("description_help"));
+  gap(panel, 8);
+  const std::string& text = panel.project.description.text();
+  if (!state.describing) {
+    if (text.empty()) quiet(panel, panel.t("description_none"));
+    else highlighted(panel, text, std::min(ImGui::GetContentRegionAvail().x, panel.px(760)));
+    gap(panel, 12);
+    if (button(panel, "description_edit", Emphasis::Primary)) {
+      state.describing = true;
+      state.descriptionDraft = text;
+    }
+  } else {
+    ImGui::InputTextMultiline("##text", &state.descriptionDraft, {-1, ImGui::GetContentRegionAvail().y - panel.px(54)});
+    landmark(panel, "description_field");
+    gap(panel, 4);
+    if (button(panel, "description_done", Emphasis::Primary)) {
+      state.describing = false;
+      if (state.descriptionDraft != text) taken = document::Step{document::SetDescription{state.descriptionDraft}};
+    }
+    ImGui::SameLine(0, panel.px(8));
+    if (button(panel, "cancel")) state.describing = false;
+  }
+  ImGui::EndChild();
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+  return taken;
+}
+
+// ---- the grammar --------------------------------------------------------------------------------------------------------------
+
+namespace {
+
+enum class Ink { Plain, Word, Number, Comment, Quoted };
+
+struct InkedPiece {
+  std::size_t begin = 0, end = 0;
+  Ink ink = Ink::Plain;
+};
+
+bool isWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+/// For the eye only: comments, quoted texts, numbers, and words that begin with a capital letter.
+std::vector<InkedPiece> inked(std::string_view line) {
+  std::vector<InkedPiece> pieces;
+  for (std::size_t at = 0; at < line.size();) {
+    std::size_t end = at + 1;
+    Ink ink = Ink::Plain;
+    if (line.substr(at, 2) == "//") {
+      end = line.size();
+      ink = Ink::Comment;
+    } else if (line[at] == '"') {
+      end = std::min(line.find('"', at + 1), line.size() - 1) + 1;
+      ink = Ink::Quoted;
+    } else if (std::isdigit(static_cast<unsigned char>(line[at])) != 0) {
+      while (end < line.size() && (isWord(line[end]) || line[end] == '.')) ++end;
+      ink = Ink::Number;
+    } else if (isWord(line[at])) {
+      while (end < line.size() && isWord(line[end])) ++end;
+      ink = std::isupper(static_cast<unsigned char>(line[at])) != 0 ? Ink::Word : Ink::Plain;
+    }
+    if (!pieces.empty() && ink == Ink::Plain && pieces.back().ink == Ink::Plain) pieces.back().end = end;
+    else pieces.push_back({at, end, ink});
+    at = end;
+  }
+  return pieces;
+}
+
+Colour colourOf(const Palette& palette, Ink ink) {
+  switch (ink) {
+    case Ink::Plain: return palette.text;
+    case Ink::Word: return palette.accent;
+    case Ink::Number: return palette.warning;
+    case Ink::Comment: return palette.quiet;
+    case Ink::Quoted: return palette.error;
+  }
+  return palette.text;
+}
+
+std::vector<std::string_view> linesOf(std::string_view text) {
+  std::vector<std::string_view> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+void grammarLine(const Panel& panel, std::string_view line, int number, float gutter) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float height = ImGui::GetTextLineHeight();
+  const std::string& find = panel.state.find;
+  if (!find.empty() && line.find(find) != std::string_view::npos)
+    list.AddRectFilled({at.x, at.y - 1}, {at.x + ImGui::GetContentRegionAvail().x, at.y + height + 1}, panel.palette.accentSoft, 2);
+  const std::string shown = std::to_string(number);
+  list.AddText({at.x + gutter - panel.px(14) - ImGui::CalcTextSize(shown.c_str()).x, at.y}, withAlpha(panel.palette.quiet, 140), shown.c_str());
+  float x = at.x + gutter;
+  for (const InkedPiece& piece : inked(line)) {
+    const char* begin = line.data() + piece.begin;
+    const char* end = line.data() + piece.end;
+    list.AddText({x, at.y}, colourOf(panel.palette, piece.ink), begin, end);
+    x += ImGui::CalcTextSize(begin, end).x;
+  }
+  ImGui::Dummy({x - at.x, height});
+}
+
+}  // namespace
+
+void grammarText(const Panel& panel, Area area) {
+  ImGui::SetCursorScreenPos({area.x, area.y});
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, panel.palette.panel);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {panel.px(8), panel.px(12)});
+  ImGui::BeginChild("##grammar", {area.width, area.height}, false, ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
+  const auto* grown = panel.following.grammar(panel.state.kind);
+  if (grown == nullptr) {
+    quiet(panel, panel.t("grammar_none"));
+  } else {
+    ImGui::PushFont(font(Face::Mono));
+    const auto lines = linesOf(grown->text);
+    const float gutter = ImGui::CalcTextSize("00000").x + panel.px(14);
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(lines.size()));
+    while (clipper.Step())
+      for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) grammarLine(panel, lines[static_cast<std::size_t>(i)], i + 1, gutter);
+    ImGui::PopFont();
+  }
+  ImGui::EndChild();
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+}
+
+// ---- nothing is open ----------------------------------------------------------------------------------------------------------
+
+void welcome(const Panel& panel, Area area) {
+  const float width = panel.px(440);
+  ImGui::SetCursorScreenPos({area.x + (area.width - width) / 2, area.y + area.height * 0.24f});
+  ImGui::BeginChild("##welcome", {width, panel.px(420)});
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  drawIcon(list, Icon::Grow, {at.x + panel.px(30), at.y + panel.px(30)}, panel.px(56), panel.palette.accent);
+  ImGui::Dummy({1, panel.px(68)});
+  heading(panel, "welcome");
+  words(panel, panel.t("welcome_text"), panel.palette.quiet);
+  gap(panel, 12);
+  const std::filesystem::path samples = samplesFolder();
+  if (!samples.empty() && button(panel, "open_sample", Emphasis::Primary, width)) panel.state.wishes.push_back(WishOpen{samples / "lantana" / "lantana.axil"});
+  gap(panel, 2);
+  if (button(panel, "new_from_photos", Emphasis::Plain, width)) {
+    panel.state.way = Way::Photos;
+    panel.state.begun = true;
+    panel.state.dialog = {DialogKind::Photo, std::filesystem::current_path(), "", "front"};
+  }
+  gap(panel, 2);
+  if (button(panel, "open_project", Emphasis::Plain, width)) panel.state.dialog = {DialogKind::Open, std::filesystem::current_path(), "", ""};
+  gap(panel, 8);
+  quiet(panel, panel.t("welcome_drop"));
+  ImGui::EndChild();
+}
+
+}  // namespace axil::ui

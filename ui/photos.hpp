@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// The project's photos as textures. They are read in the background, one after another; a photo that cannot be read says why.
+
+#include "document/project.hpp"
+#include "skeleton3d/photo.hpp"
+#include "ui/textures.hpp"
+#include "ui/worker.hpp"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+
+namespace axil::ui {
+
+struct ShownPhoto {
+  Texture texture;
+  glm::ivec2 size_px{0, 0};      ///< of the photo; the texture may be smaller where the machine takes no larger one
+  std::optional<Error> trouble;
+  std::filesystem::file_time_type changed;
+};
+
+class Photos {
+ public:
+  explicit Photos(std::function<void()> answered);
+
+  /// Asks for what is named by the project and not here yet; takes what has come. Once a frame.
+  void update(const document::OpenProject& open);
+  /// Null while it is being read.
+  [[nodiscard]] const ShownPhoto* find(const std::filesystem::path& file) const;
+  [[nodiscard]] bool busy() const { return reader_.busy() || waiting_; }
+
+ private:
+  struct Read {
+    std::filesystem::path file;
+    std::optional<skeleton3d::Photo> photo;
+    std::optional<Error> trouble;
+  };
+  static Read read(const std::filesystem::path& file);
+  void take(Read read);
+
+  std::map<std::filesystem::path, ShownPhoto> photos_;
+  bool waiting_ = false;
+  Worker<std::filesystem::path, Read> reader_;
+};
+
+}  // namespace axil::ui

@@ -1,0 +1,138 @@
+#include "document/lookup.hpp"
+#include "skeleton3d/camera.hpp"
+#include "ui/plant_picture.hpp"
+#include "ui/widgets_interop.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace axil::ui {
+namespace {
+
+struct View3d {
+  const Panel& panel;
+  Area area;
+  skeleton3d::Camera camera;
+  ImDrawList& list;
+
+  [[nodiscard]] ImVec2 onScreen(PlantPoint p) const {
+    const glm::dvec2 px = skeleton3d::project(camera, p).px;
+    return {area.x + static_cast<float>(px.x), area.y + static_cast<float>(px.y)};
+  }
+};
+
+const skeleton3d::Node* nodeWith(const skeleton3d::Skeleton& skeleton, skeleton3d::NodeId id) {
+  for (const skeleton3d::Node& node : skeleton.nodes)
+    if (node.id == id) return &node;
+  return nullptr;
+}
+
+void drawSkeleton(const View3d& view) {
+  const auto& shown = view.panel.following.skeleton;
+  if (!shown.good) return;
+  const std::uint32_t alpha = shown.trouble ? 110 : 235;  // the last good one stands back
+  const auto chosen = view.panel.state.selection.node ? stemOf(view.panel.project, *view.panel.state.selection.node) : std::nullopt;
+  for (const skeleton3d::Stem& stem : shown.good->stems) {
+    const Colour colour = withAlpha(colourOf(stem.id), alpha);
+    const float width = view.panel.px(stem.id == chosen ? 3.0f : 1.8f);
+    for (std::size_t i = 0; i < stem.nodes.size(); ++i) {
+      const skeleton3d::Node* node = nodeWith(*shown.good, stem.nodes[i]);
+      const skeleton3d::Node* before = i == 0 ? nullptr : nodeWith(*shown.good, stem.nodes[i - 1]);
+      if (node != nullptr && before != nullptr) view.list.AddLine(view.onScreen(before->position), view.onScreen(node->position), colour, width);
+      if (node != nullptr && i > 0) drawMark(view.list, markOf(stem.id), view.onScreen(node->position), view.panel.px(2.6f), colour);
+    }
+  }
+  if (!view.panel.state.selection.node) return;
+  if (const skeleton3d::Node* node = nodeWith(*shown.good, *view.panel.state.selection.node))
+    view.list.AddCircle(view.onScreen(node->position), view.panel.px(8), view.panel.palette.text, 24, view.panel.px(2));
+}
+
+void pick(const View3d& view) {
+  const auto& skeleton = view.panel.following.skeleton.good;
+  if (!skeleton) return;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  float best = view.panel.px(10);
+  for (const skeleton3d::Node& node : skeleton->nodes) {
+    const ImVec2 at = view.onScreen(node.position);
+    const float distance = std::hypot(at.x - mouse.x, at.y - mouse.y);
+    if (distance > best || !document::nodeWithId(view.panel.project, node.id)) continue;
+    best = distance;
+    view.panel.state.selection.node = node.id;
+  }
+}
+
+void turn(const View3d& view, bool hovered, bool active) {
+  ImGuiIO& io = ImGui::GetIO();
+  Orbit& orbit = view.panel.state.orbit;
+  view.panel.state.turningPlant = active && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || view.panel.state.turningPlant);
+  if (hovered && io.MouseWheel != 0) orbit.zoom = std::clamp(orbit.zoom * std::pow(1.15, io.MouseWheel), 0.1, 40.0);
+  if (!active) return;
+  if (ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2)) {
+    orbit.shift += glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) / static_cast<double>(view.area.height);
+    return;
+  }
+  orbit.azimuth += Angle::fromDegrees(-0.5 * static_cast<double>(io.MouseDelta.x / view.panel.state.scale));
+  const double up = orbit.elevation.degrees() + 0.4 * static_cast<double>(io.MouseDelta.y / view.panel.state.scale);
+  orbit.elevation = Angle::fromDegrees(std::clamp(up, -4.0, 88.0));
+}
+
+void overlayButtons(const Panel& panel, Area area) {
+  const float size = panel.px(26), pad = panel.px(7);
+  ImGui::SetCursorScreenPos({area.x + area.width - 2 * size - 1.5f * pad, area.y + pad});
+  if (iconButton(panel, "toggle_skeleton", Icon::Stems, panel.t("show_skeleton"), size)) panel.state.showSkeleton = !panel.state.showSkeleton;
+  ImGui::SetCursorScreenPos({area.x + area.width - size - pad, area.y + pad});
+  if (iconButton(panel, "toggle_plant", Icon::Leaves, panel.t("show_plant"), size)) panel.state.showPlant = !panel.state.showPlant;
+}
+
+}  // namespace
+
+void plantPane(const Panel& panel, Area area) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 low{area.x, area.y}, high{area.x + area.width, area.y + area.height};
+  list.AddRectFilled(low, high, panel.palette.photo, panel.px(4));
+  panel.state.landmarks["pane_plant"] = {area.x, area.y, area.width, area.height};
+  panel.state.plantPaneSize = {static_cast<int>(area.width), static_cast<int>(area.height)};
+  ImGui::PushID("plant");
+  overlayButtons(panel, area);
+  ImGui::SetCursorScreenPos(low);
+  ImGui::InvisibleButton("turn", {area.width, area.height}, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
+  const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
+  const auto* grown = panel.following.grammar(panel.state.kind);
+  View3d view{panel, area, {}, list};
+  turn(view, hovered, active);
+  if (grown == nullptr) {
+    const char* text = panel.t("plant_none");
+    const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, area.width * 0.8f);
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {area.x + (area.width - size.x) / 2, area.y + (area.height - size.y) / 2}, panel.palette.quiet, text, nullptr, area.width * 0.8f);
+    ImGui::PopID();
+    return;
+  }
+  view.camera = orbitCamera(panel.state.orbit, grown->middle, grown->reach, panel.state.plantPaneSize);
+  if (ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(0)) {
+    const ImVec2 moved = ImGui::GetMouseDragDelta(0, 0);
+    if (std::hypot(moved.x, moved.y) < panel.px(4)) pick(view);
+  }
+  if (hovered) panel.state.status = panel.t("click_plant");
+  list.PushClipRect(low, high, true);
+  if (panel.state.showPlant && panel.plantPicture.id() != 0)
+    list.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(panel.plantPicture.id())), low, high, {0, 0}, {1, 1},
+                         panel.following.skeleton.trouble ? rgb(0xFFFFFF, 120) : rgb(0xFFFFFF), panel.px(4));
+  if (panel.state.showSkeleton) drawSkeleton(view);
+  ImGui::PushFont(font(Face::Small));
+  const float pad = panel.px(7);
+  const float width = chip(list, {area.x + pad, area.y + pad}, std::string("4  ") + panel.t("view_plant"), withAlpha(panel.palette.panel, 225), panel.palette.text, pad);
+  if (panel.following.skeleton.trouble)
+    chip(list, {area.x + 1.6f * pad + width, area.y + pad}, panel.t("last_good"), withAlpha(panel.palette.panel, 225), panel.palette.warning, pad);
+  ImGui::PopFont();
+  const float size = panel.px(26);
+  for (int i = 0; i < 2; ++i) {
+    const ImVec2 at{area.x + area.width - static_cast<float>(2 - i) * size - (i == 0 ? 1.5f : 1.0f) * pad, area.y + pad};
+    const bool on = i == 0 ? panel.state.showSkeleton : panel.state.showPlant;
+    list.AddRectFilled(at, {at.x + size, at.y + size}, withAlpha(panel.palette.panel, 225), panel.px(5));
+    drawIcon(list, i == 0 ? Icon::Stems : Icon::Leaves, {at.x + size / 2, at.y + size / 2}, size * 0.5f, on ? panel.palette.accent : panel.palette.quiet);
+  }
+  list.PopClipRect();
+  ImGui::PopID();
+}
+
+}  // namespace axil::ui

@@ -1,0 +1,219 @@
+#include "ui/shell.hpp"
+
+#include "ui/widgets_interop.hpp"
+
+#include <algorithm>
+
+namespace axil::ui {
+namespace {
+
+using document::Step;
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+/// Draws one part of the window and keeps the step it gave.
+template <class Content>
+void part(const Panel& panel, const char* name, Area area, Colour ground, float pad, std::vector<Step>& steps, Content content) {
+  ImGui::SetNextWindowPos({area.x, area.y});
+  ImGui::SetNextWindowSize({area.width, area.height});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ground);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {panel.px(pad), panel.px(pad)});
+  ImGui::Begin(name, nullptr, pad > 0 ? kFixed & ~ImGuiWindowFlags_NoScrollbar : kFixed | ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PopStyleVar();
+  if (Taken taken = content()) steps.push_back(std::move(*taken));
+  ImGui::End();
+  ImGui::PopStyleColor();
+}
+
+void topBar(const Panel& panel, Area area) {
+  UiState& state = panel.state;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float middle = area.y + area.height / 2, line = ImGui::GetFontSize();
+  drawIcon(list, Icon::Grow, {area.x + panel.px(24), middle}, panel.px(22), panel.palette.accent);
+  ImGui::PushFont(font(Face::Heading));
+  list.AddText({area.x + panel.px(46), middle - ImGui::GetFontSize() / 2}, panel.palette.text, "Axil Studio");
+  const float title = ImGui::CalcTextSize("Axil Studio").x;
+  ImGui::PopFont();
+  const std::string name = panel.project.name + (panel.session.isDirty() ? "  •" : "");
+  list.AddText({area.x + panel.px(64) + title, middle - line / 2}, panel.palette.quiet, name.c_str());
+
+  const float height = ImGui::GetFrameHeight();
+  ImGui::SetCursorScreenPos({area.x + panel.px(330), middle - height / 2});
+  if (button(panel, "menu_open", Emphasis::Quiet)) state.dialog = {DialogKind::Open, panel.session.openProject().folder, "", ""};
+  ImGui::SameLine(0, panel.px(2));
+  if (button(panel, "save", Emphasis::Quiet)) state.wishes.push_back(WishSave{});
+  ImGui::SameLine(0, panel.px(14));
+  ImGui::BeginDisabled(!panel.session.history().canUndo());
+  if (button(panel, "undo", Emphasis::Quiet)) state.wishes.push_back(WishUndo{});
+  ImGui::EndDisabled();
+  ImGui::SameLine(0, panel.px(2));
+  ImGui::BeginDisabled(!panel.session.history().canRedo());
+  if (button(panel, "redo", Emphasis::Quiet)) state.wishes.push_back(WishRedo{});
+  ImGui::EndDisabled();
+  ImGui::SameLine(0, panel.px(2));
+  if (button(panel, "history", Emphasis::Quiet)) state.history = !state.history;
+
+  static constexpr std::array<const char*, 3> kLanguages = {"English", "繁體中文", "简体中文"};
+  const float right = area.x + area.width;
+  ImGui::SetCursorScreenPos({right - panel.px(322), middle - height / 2});
+  ImGui::SetNextItemWidth(panel.px(116));
+  if (ImGui::BeginCombo("##language", kLanguages[static_cast<std::size_t>(state.language)])) {
+    for (std::size_t i = 0; i < kLanguages.size(); ++i)
+      if (ImGui::Selectable(kLanguages[i], static_cast<std::size_t>(state.language) == i)) state.language = static_cast<Language>(i);
+    ImGui::EndCombo();
+  }
+  landmark(panel, "language");
+  ImGui::SameLine(0, panel.px(6));
+  if (button(panel, state.theme == Theme::Dark ? "theme_light" : "theme_dark", Emphasis::Quiet)) state.theme = state.theme == Theme::Dark ? Theme::Light : Theme::Dark;
+  ImGui::SameLine(0, panel.px(2));
+  if (button(panel, "shortcuts", Emphasis::Quiet)) state.shortcuts = !state.shortcuts;
+}
+
+Taken leftColumn(const Panel& panel) {
+  wayPanel(panel);
+  gap(panel, 4);
+  ImGui::Separator();
+  gap(panel, 6);
+  switch (panel.state.way) {
+    case Way::Describe: return describePanel(panel);
+    case Way::Photos: return photosPanel(panel);
+    case Way::Stems: return stemsPanel(panel);
+    case Way::Leaves: return leavesPanel(panel);
+    case Way::Grammar: return grammarPanel(panel);
+    case Way::Grow: return growPanel(panel);
+  }
+  return std::nullopt;
+}
+
+Taken pane(const Panel& panel, int number, Area area) {
+  if (number < 3) return photoPane(panel, number, area);
+  plantPane(panel, area);
+  return std::nullopt;
+}
+
+Taken quadrants(const Panel& panel, Area area) {
+  if (panel.state.maximised) return pane(panel, *panel.state.maximised, area);
+  const float gapWidth = panel.px(4), width = (area.width - gapWidth) / 2, height = (area.height - gapWidth) / 2;
+  Taken taken;
+  for (int i = 0; i < 4; ++i) {
+    const Area quarter{area.x + static_cast<float>(i % 2) * (width + gapWidth), area.y + static_cast<float>(i / 2) * (height + gapWidth), width, height};
+    if (Taken one = pane(panel, i, quarter)) taken = std::move(one);
+  }
+  return taken;
+}
+
+Taken centre(const Panel& panel, Area area) {
+  const bool empty = panel.project == document::Project{} && !panel.state.begun && panel.session.path().empty() && !panel.session.history().canUndo();
+  if (empty) {
+    welcome(panel, area);
+    return std::nullopt;
+  }
+  const float gapWidth = panel.px(4);
+  const Area left{area.x, area.y, (area.width - gapWidth) * 0.56f, area.height};
+  const Area right{area.x + left.width + gapWidth, area.y, area.width - left.width - gapWidth, area.height};
+  switch (panel.state.way) {
+    case Way::Describe: {
+      Taken taken = descriptionText(panel, left);
+      plantPane(panel, right);
+      return taken;
+    }
+    case Way::Grammar:
+      grammarText(panel, left);
+      plantPane(panel, right);
+      return std::nullopt;
+    case Way::Grow:
+      plantPane(panel, area);
+      return std::nullopt;
+    case Way::Photos:
+    case Way::Stems:
+    case Way::Leaves: return quadrants(panel, area);
+  }
+  return std::nullopt;
+}
+
+void statusLine(const Panel& panel, Area area) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  ImGui::PushFont(font(Face::Small));
+  const float y = area.y + (area.height - ImGui::GetFontSize()) / 2;
+  const char* idle = panel.project.views.empty() ? "status_idle_empty" : "status_idle";
+  const std::string text = panel.state.status.empty() ? panel.t(idle) : panel.state.status;
+  list.AddCircleFilled({area.x + panel.px(16), area.y + area.height / 2}, panel.px(4), panel.palette.accent);
+  list.AddText({area.x + panel.px(28), y}, panel.palette.text, text.c_str());
+  if (const auto& notice = panel.state.notice) {
+    const Colour colour = notice->kind == NoticeKind::Failed ? panel.palette.error : notice->kind == NoticeKind::Warned ? panel.palette.warning : panel.palette.quiet;
+    const float room = area.width * 0.52f, width = std::min(ImGui::CalcTextSize(notice->text.c_str()).x, room);
+    const float x = area.x + area.width - width - panel.px(14);
+    list.PushClipRect({x, area.y}, {area.x + area.width, area.y + area.height}, true);
+    list.AddText({x, y}, colour, notice->text.c_str());
+    list.PopClipRect();
+    ImGui::SetCursorScreenPos({x, area.y});
+    ImGui::InvisibleButton("notice", {width, area.height});
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", notice->text.c_str());
+  }
+  ImGui::PopFont();
+}
+
+}  // namespace
+
+std::vector<Step> shell(const Panel& panel) {
+  std::vector<Step> steps;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const Palette& p = panel.palette;
+  const float top = panel.px(46), status = panel.px(30), below = panel.px(72), left = panel.px(296), right = panel.px(268), between = panel.px(4);
+  const Area barArea{0, 0, screen.x, top};
+  const Area statusArea{0, screen.y - status, screen.x, status};
+  const Area timeArea{left + between, screen.y - status - below, screen.x - left - between, below};
+  const Area leftArea{0, top, left, screen.y - top - status};
+  const Area rightArea{screen.x - right, top, right, screen.y - top - status - below - between};
+  const Area middle{left + between, top, std::max(64.0f, screen.x - left - right - 2 * between), std::max(64.0f, screen.y - top - status - below - between)};
+  panel.state.hover.reset();
+  panel.state.status.clear();
+  panel.state.landmarks.clear();
+  panel.state.plantPaneSize = {0, 0};
+  part(panel, "##bar", barArea, p.panel, 0, steps, [&] { return topBar(panel, barArea), Taken{}; });
+  part(panel, "##left", leftArea, p.panel, 12, steps, [&] { return leftColumn(panel); });
+  part(panel, "##centre", middle, p.ground, 0, steps, [&] { return centre(panel, middle); });
+  part(panel, "##right", rightArea, p.panel, 14, steps, [&] { return inspector(panel); });
+  part(panel, "##time", timeArea, p.panel, 0, steps, [&] { return timeline(panel, timeArea), Taken{}; });
+  part(panel, "##status", statusArea, p.ground, 0, steps, [&] { return statusLine(panel, statusArea), Taken{}; });
+  if (panel.state.shortcuts) shortcutsSheet(panel);
+  if (panel.state.history) historySheet(panel);
+  if (panel.state.question) questionSheet(panel);
+  if (Taken taken = fileDialog(panel)) steps.push_back(std::move(*taken));
+  return steps;
+}
+
+void applyLook(const Palette& p, float scale) {
+  ImGuiStyle style;
+  style.WindowRounding = 0;
+  style.ChildRounding = 4;
+  style.FrameRounding = 6;
+  style.PopupRounding = 6;
+  style.GrabRounding = 6;
+  style.ScrollbarRounding = 6;
+  style.ScrollbarSize = 10;
+  style.WindowBorderSize = 0;
+  style.ChildBorderSize = 0;
+  style.FramePadding = {11, 6};
+  style.ItemSpacing = {8, 6};
+  style.GrabMinSize = 12;
+  style.ScaleAllSizes(scale);
+  const auto set = [&](ImGuiCol which, Colour colour) { style.Colors[which] = ImGui::ColorConvertU32ToFloat4(colour); };
+  set(ImGuiCol_Text, p.text);
+  set(ImGuiCol_TextDisabled, p.quiet);
+  set(ImGuiCol_WindowBg, p.panel);
+  set(ImGuiCol_ChildBg, 0);
+  set(ImGuiCol_PopupBg, p.raised);
+  set(ImGuiCol_Border, p.line);
+  set(ImGuiCol_Separator, p.line);
+  for (const ImGuiCol which : {ImGuiCol_FrameBg, ImGuiCol_Button}) set(which, p.raised);
+  for (const ImGuiCol which : {ImGuiCol_FrameBgHovered, ImGuiCol_ButtonHovered, ImGuiCol_HeaderHovered, ImGuiCol_ScrollbarGrabHovered, ImGuiCol_ScrollbarGrabActive}) set(which, p.hovered);
+  for (const ImGuiCol which : {ImGuiCol_FrameBgActive, ImGuiCol_ButtonActive, ImGuiCol_HeaderActive, ImGuiCol_TextSelectedBg}) set(which, p.accentSoft);
+  set(ImGuiCol_Header, p.raised);
+  set(ImGuiCol_ScrollbarBg, 0);
+  set(ImGuiCol_ScrollbarGrab, p.line);
+  for (const ImGuiCol which : {ImGuiCol_CheckMark, ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive, ImGuiCol_PlotHistogram}) set(which, p.accent);
+  ImGui::GetStyle() = style;
+}
+
+}  // namespace axil::ui

@@ -1,0 +1,153 @@
+#pragma once
+/// \file
+/// UiState: what a person is looking at and in the middle of. It is no part of the project: it is not saved with it and undo leaves it
+/// alone. Plain values; panels read and write them, and one frame's wishes are carried out after the panels are drawn.
+
+#include "base/angle.hpp"
+#include "document/chain.hpp"
+#include "document/command.hpp"
+#include "ui/clicking.hpp"
+#include "ui/texts.hpp"
+#include "ui/theme.hpp"
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace axil::ui {
+
+/// The way of work, from the words to the growing plant.
+enum class Way { Describe, Photos, Stems, Leaves, Grammar, Grow };
+inline constexpr std::array<Way, 6> kWays = {Way::Describe, Way::Photos, Way::Stems, Way::Leaves, Way::Grammar, Way::Grow};
+
+/// How a photo lies in its pane. `zoom`: screen px a photo px; 0: as large as the pane allows. `centre`: the photo px in the middle.
+struct PhotoFrame {
+  double zoom = 0;
+  glm::dvec2 centre{0, 0};
+};
+
+/// Where the plant is looked at from. Azimuth 0 is the front, growing to the right; `zoom` 1 shows all of it.
+struct Orbit {
+  Angle azimuth = Angle::fromDegrees(32);
+  Angle elevation = Angle::fromDegrees(10);
+  double zoom = 1;
+  glm::dvec2 shift{0, 0};  ///< of the plant in its pane, in shares of the pane's height
+};
+
+/// A node on its way to another place while the button is down.
+struct NodeDrag {
+  document::NodeId node;
+  std::string view;
+  PhotoPoint at;
+  bool moved = false;
+};
+
+/// What a click in a photo does while photos are set up.
+enum class PhotoTool { None, Origin, Length };
+
+/// What is done after the panels are drawn, since it is no command on the project.
+struct WishSave {};
+struct WishSaveAs {
+  std::filesystem::path path;
+};
+struct WishOpen {
+  std::filesystem::path path;
+};
+struct WishNew {};
+struct WishUndo {};
+struct WishRedo {};
+struct WishGoTo {
+  std::size_t position = 0;
+};
+struct WishExport {
+  std::filesystem::path folder;
+};
+struct WishCancelExport {};
+struct WishQuit {};
+/// The answers to a question.
+struct WishRecover {
+  std::filesystem::path journal;
+};
+struct WishForget {
+  std::filesystem::path journal;
+};
+using Wish = std::variant<WishSave, WishSaveAs, WishOpen, WishNew, WishUndo, WishRedo, WishGoTo, WishExport, WishCancelExport, WishQuit, WishRecover, WishForget>;
+
+/// Something the user must decide before it goes on.
+struct Unsaved {
+  Wish then;  ///< what was asked for
+};
+struct LeftWork {
+  std::filesystem::path journal;
+  std::size_t actions = 0;
+};
+using Question = std::variant<Unsaved, LeftWork>;
+
+enum class NoticeKind { Said, Warned, Failed };
+struct Notice {
+  NoticeKind kind = NoticeKind::Said;
+  std::string text;
+};
+
+enum class DialogKind { None, Open, SaveAs, Photo, ExportFolder };
+struct FileDialogState {
+  DialogKind kind = DialogKind::None;
+  std::filesystem::path folder;
+  std::string name;
+  std::string view;  ///< Photo: which view gets it
+};
+
+struct UiState {
+  Way way = Way::Stems;
+  Theme theme = Theme::Dark;
+  Language language = Language::English;
+  float scale = 1;
+
+  Selection selection;
+  std::optional<NodeDrag> drag;
+  std::map<std::string, PhotoFrame> frames;                                     ///< of photos that were moved
+  std::map<std::string, std::pair<PhotoFrame, glm::dvec2>> shownFrames;         ///< as drawn, with the middle of the pane on the screen
+  std::optional<int> maximised;  ///< pane 0 to 3
+  std::optional<std::pair<std::string, PhotoPoint>> hover;  ///< which photo the mouse is over, and where
+  bool loupe = false;
+  bool shortcuts = false;
+  bool history = false;
+  bool begun = false;  ///< an empty project is being filled: no welcome
+
+  PhotoTool tool = PhotoTool::None;
+  std::optional<std::pair<std::string, PhotoPoint>> lengthFrom;  ///< first end of a known length
+  double knownLength = 0.1;
+
+  Orbit orbit;
+  bool turningPlant = false;
+  glm::ivec2 plantPaneSize{0, 0};  ///< as drawn; 0, 0 where it is not shown
+  bool showSkeleton = true;
+  bool showPlant = true;
+
+  document::GrammarKind kind = document::GrammarKind::Predictive;  ///< which grammar is shown and grown
+  double time = -1;                                                ///< below 0: when all is grown
+  bool playing = false;
+  double speed = 1;  ///< derivation steps a second
+  std::string find;
+
+  std::string descriptionDraft;
+  bool describing = false;         ///< the draft is being written
+  std::optional<std::size_t> hotTrait;
+  std::optional<quantify::LeafArrangement> leavesDraft;  ///< while a slider is pulled
+  int leavesNumber = 0;                                  ///< which arrangement it is, from 1
+  std::string exportFolder;
+
+  FileDialogState dialog;
+  std::optional<Question> question;
+  bool leaveUnsaved = false;       ///< the user gave the unsaved work up
+  std::optional<Notice> notice;    ///< of the last thing done; until the next
+  std::string status;              ///< what a click would do now
+  std::map<std::string, std::array<float, 4>, std::less<>> landmarks;  ///< x, y, width, height of what can be pressed, this frame
+  std::vector<Wish> wishes;
+};
+
+}  // namespace axil::ui

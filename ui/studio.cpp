@@ -1,0 +1,406 @@
+#include "ui/studio.hpp"
+
+#include "base/overloaded.hpp"
+#include "document/journal.hpp"
+#include "document/lookup.hpp"
+#include "document/replay.hpp"
+#include "ui/export_work.hpp"
+#include "ui/fonts_interop.hpp"
+#include "ui/plant_picture.hpp"
+#include "ui/shell.hpp"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace axil::ui {
+
+namespace fs = std::filesystem;
+using document::Session;
+using document::Step;
+
+namespace {
+
+std::string textOf(const Error& error) {
+  std::string text = error.message;
+  for (std::size_t i = 0; i < std::min<std::size_t>(error.details.size(), 3); ++i) text += "\n" + error.details[i];
+  return text;
+}
+
+/// Which view a photo without one gets: the one its name says, else the first that has none.
+std::string viewFor(const document::Project& project, const fs::path& photo) {
+  static constexpr std::array<const char*, 3> kViews = {"front", "right", "top"};
+  const auto isFree = [&](const char* view) {
+    const auto place = document::viewNamed(project, view);
+    return !place || project.views[*place].photo.empty();
+  };
+  for (const char* view : kViews)
+    if (isFree(view) && photo.stem().string().find(view) != std::string::npos) return view;
+  for (const char* view : kViews)
+    if (isFree(view)) return view;
+  return {};
+}
+
+}  // namespace
+
+struct Studio::Inside {
+  StudioOptions options;
+  Texts texts;
+  UiState state = {};
+  Session session;
+  FontBook fonts = {};
+  std::uint64_t revision = 1;         // of the project; counts changes
+  std::uint64_t asked = 0;
+  std::shared_ptr<const Following> following = std::make_shared<Following>();
+  Texture plantTexture = {};
+  std::optional<PlantQuestion> drawn = {};  // what was asked for last
+  std::optional<Error> drawingTrouble = {};
+  ExportState exporting = {};
+  bool ended = false;
+  std::optional<std::pair<Theme, float>> look = {};
+  // Workers last: their threads end first.
+  Photos photos;
+  Follower follower;
+  PlantDrawer drawer;
+  Exporter exporter;
+
+  Inside(StudioOptions given, Texts words)
+      : options(std::move(given)), texts(std::move(words)), session(Session::untitled({.stateFolder = options.stateFolder, .chain = {}})), photos(options.wake), follower(followingWork, options.wake),
+        drawer(drawingWork, options.wake), exporter(options.wake) {
+    state.theme = options.theme;
+    state.language = options.language;
+    state.scale = options.scale;
+    fonts.want(texts.allCharacters());
+    fonts.want("°±•·–…→English繁體中文简体中文");
+  }
+
+  [[nodiscard]] const char* t(const char* key) const { return texts(key, state.language); }
+  void tell(NoticeKind kind, std::string text) {
+    fonts.want(text);
+    state.notice = Notice{kind, std::move(text)};
+  }
+  void fail(const Error& error) { tell(NoticeKind::Failed, textOf(error)); }
+
+  // ---- the project -----------------------------------------------------------------------------------------------------------
+
+  void changed() {
+    ++revision;
+    const document::Project& project = session.project();
+    fonts.want(project.name);
+    fonts.want(project.description);
+    for (const auto& view : project.views) fonts.want(view.photo + view.view.name);
+    if (state.selection.node && !document::nodeWithId(project, *state.selection.node)) state.selection = {};
+    if (session.journalTrouble()) tell(NoticeKind::Warned, session.journalTrouble()->message);
+  }
+
+  void run(Step step) {
+    const auto ran = session.run(std::move(step));
+    if (!ran) return fail(ran.error());
+    state.notice.reset();
+    changed();
+  }
+
+  void replaceSession(Session with) {
+    if (!session.isDirty() || state.leaveUnsaved) session.close();
+    session = std::move(with);
+    const Way way = state.way;
+    UiState fresh;
+    fresh.theme = state.theme;
+    fresh.language = state.language;
+    fresh.scale = state.scale;
+    fresh.way = way;
+    fresh.loupe = state.loupe;
+    state = std::move(fresh);
+    following = std::make_shared<Following>();
+    drawn.reset();
+    plantTexture = Texture{};
+    exporting = {};
+    changed();
+  }
+
+  Result<void> open(const fs::path& path) {
+    auto opened = Session::open(path, {.stateFolder = options.stateFolder, .chain = {}});
+    if (!opened) return opened.failure();
+    replaceSession(std::move(*opened));
+    if (options.stateFolder.empty()) return {};
+    if (const auto left = document::leftJournals(options.stateFolder, session.path()); !left.empty()) state.question = LeftWork{left.front().file, left.front().actions};
+    return {};
+  }
+
+  void recover(const fs::path& journal) {
+    auto recovered = document::recover(journal);
+    if (!recovered) return fail(recovered.error());
+    const std::size_t faults = recovered->faults.size();
+    session.close();  // gives the lock back to whoever goes on
+    auto resumed = Session::resume(std::move(*recovered), {.stateFolder = options.stateFolder, .chain = {}});
+    if (!resumed) return fail(resumed.error());
+    replaceSession(std::move(*resumed));
+    tell(faults == 0 ? NoticeKind::Said : NoticeKind::Warned, t(faults == 0 ? "recovered" : "recovered_partly"));
+  }
+
+  void forget(const fs::path& journal) {
+    if (auto recovered = document::recover(journal)) recovered->journal.remove();
+  }
+
+  void save() {
+    if (session.path().empty()) {
+      state.dialog = {DialogKind::SaveAs, session.openProject().folder, session.project().name + ".axil", ""};
+      return;
+    }
+    if (const auto saved = session.save(); !saved) return fail(saved.error());
+    tell(NoticeKind::Said, filled(t("saved"), {{"file", session.path().string()}}));
+  }
+
+  void saveAs(const fs::path& path) {
+    if (const auto saved = session.saveAs(path); !saved) return fail(saved.error());
+    tell(NoticeKind::Said, filled(t("saved"), {{"file", session.path().string()}}));
+  }
+
+  /// Whether the wish may go on: unsaved work is asked about first.
+  bool mayLeave(const Wish& wish) {
+    if (!session.isDirty() || state.leaveUnsaved) return true;
+    state.question = Unsaved{wish};
+    return false;
+  }
+
+  void step(const Result<void>& moved) {
+    if (!moved) return;
+    state.notice.reset();
+    changed();
+  }
+
+  void carryOut(const Wish& wish) {
+    std::visit(overloaded{[&](const WishSave&) { save(); }, [&](const WishSaveAs& w) { saveAs(w.path); },
+                          [&](const WishOpen& w) {
+                            if (!mayLeave(wish)) return;
+                            if (const auto opened = open(w.path); !opened) fail(opened.error());
+                          },
+                          [&](const WishNew&) {
+                            if (mayLeave(wish)) replaceSession(Session::untitled({.stateFolder = options.stateFolder, .chain = {}}));
+                          },
+                          [&](const WishUndo&) {
+                            if (session.history().canUndo()) step(session.undo());
+                          },
+                          [&](const WishRedo&) {
+                            if (session.history().canRedo()) step(session.redo());
+                          },
+                          [&](const WishGoTo& w) { step(session.goTo(w.position)); },
+                          [&](const WishExport& w) {
+                            exporting = {.running = true, .what = "", .share = 0, .done = {}};
+                            exporter.begin({session.openProject(), w.folder});
+                          },
+                          [&](const WishCancelExport&) { exporter.cancel(); },
+                          [&](const WishQuit&) {
+                            if (!mayLeave(wish)) return;
+                            session.close();
+                            ended = true;
+                          },
+                          [&](const WishRecover& w) { recover(w.journal); }, [&](const WishForget& w) { forget(w.journal); }},
+               wish);
+  }
+
+  // ---- the background --------------------------------------------------------------------------------------------------------
+
+  void takeAnswers() {
+    if (auto answer = follower.take()) following = std::move(*answer);
+    if (asked != revision) {
+      asked = revision;
+      follower.ask({session.openProject(), revision});
+    }
+    photos.update(session.openProject());
+    if (auto picture = drawer.take()) {
+      drawingTrouble = picture->trouble;
+      if (picture->trouble) fail(*picture->trouble);
+      else plantTexture.set(picture->image.width_px, picture->image.height_px, picture->image.rgb, Texture::Smaller::None);
+    }
+    if (auto answer = exporter.take()) finishExport(*answer);
+    if (exporting.running) std::tie(exporting.what, exporting.share) = exporter.progress();
+  }
+
+  void finishExport(const ExportAnswer& answer) {
+    exporting.running = false;
+    if (!answer.report && answer.report.error().code == ErrorCode::Cancelled) return tell(NoticeKind::Said, t("export_cancelled"));
+    if (!answer.report) return fail(answer.report.error());
+    exporting.done = answer.folder.string();
+    tell(NoticeKind::Said, filled(t("exported"), {{"folder", answer.folder.string()}}));
+  }
+
+  /// Asks for the plant as it should look now, unless it looks so already. A turning plant is drawn small, to keep up.
+  void askForPlant() {
+    const auto* grown = following->grammar(state.kind);
+    if (grown == nullptr || !grown->growth || state.plantPaneSize.x < 16 || state.plantPaneSize.y < 16 || !state.showPlant || drawingTrouble) return;
+    const double factor = state.turningPlant || state.playing ? 0.5 : 1;
+    PlantQuestion question{*grown->growth, state.time < 0 ? grown->end : std::min(state.time, grown->end), {}, {}};
+    question.size_px = glm::max(glm::ivec2(glm::dvec2(state.plantPaneSize) * factor), glm::ivec2(16));
+    question.camera = resized(orbitCamera(state.orbit, grown->middle, grown->reach, state.plantPaneSize), factor);
+    const bool same = drawn && &drawn->growth.data() == &question.growth.data() && drawn->time == question.time && drawn->camera == question.camera && drawn->size_px == question.size_px;
+    if (same || drawer.working()) return;
+    drawn = question;
+    drawer.ask(std::move(question));
+  }
+
+  [[nodiscard]] bool plantIsBehind() const {
+    const auto* grown = following->grammar(state.kind);
+    if (grown == nullptr || !grown->growth || state.plantPaneSize.x < 16 || !state.showPlant || drawingTrouble) return false;
+    return drawer.busy() || !drawn || drawn->size_px != state.plantPaneSize;
+  }
+
+  void play() {
+    const auto* grown = following->grammar(state.kind);
+    if (!state.playing || grown == nullptr || grown->end <= 0) return;
+    constexpr double kSeconds = 8;  // from nothing to the end
+    state.time = std::max(0.0, state.time) + static_cast<double>(ImGui::GetIO().DeltaTime) * grown->end / kSeconds * state.speed;
+    if (state.time < grown->end) return;
+    state.time = -1;
+    state.playing = false;
+  }
+
+  // ---- keys ------------------------------------------------------------------------------------------------------------------
+
+  void escape() {
+    if (state.shortcuts || state.history || state.dialog.kind != DialogKind::None) {
+      state.shortcuts = state.history = false;
+      state.dialog.kind = DialogKind::None;
+    } else if (state.tool != PhotoTool::None) {
+      state.tool = PhotoTool::None;
+      state.lengthFrom.reset();
+    } else if (state.selection.node) {
+      state.selection = {};
+    } else {
+      state.maximised.reset();
+    }
+  }
+
+  void controlKeys(bool shift) {
+    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, true); };
+    if (pressed(GLFW_KEY_Z)) state.wishes.push_back(shift ? Wish{WishRedo{}} : Wish{WishUndo{}});
+    if (pressed(GLFW_KEY_Y)) state.wishes.push_back(WishRedo{});
+    if (ImGui::IsKeyPressed(GLFW_KEY_S, false)) {
+      if (shift) state.dialog = {DialogKind::SaveAs, session.openProject().folder, session.project().name + ".axil", ""};
+      else state.wishes.push_back(WishSave{});
+    }
+    if (ImGui::IsKeyPressed(GLFW_KEY_O, false)) state.dialog = {DialogKind::Open, session.openProject().folder, "", ""};
+    if (ImGui::IsKeyPressed(GLFW_KEY_H, false)) state.history = !state.history;
+    if (ImGui::IsKeyPressed(GLFW_KEY_Q, false)) state.wishes.push_back(WishQuit{});
+  }
+
+  void keys() {
+    const ImGuiIO& io = ImGui::GetIO();
+    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+    if (pressed(GLFW_KEY_F1)) state.shortcuts = !state.shortcuts;
+    if (pressed(GLFW_KEY_ESCAPE)) escape();
+    if (io.WantTextInput) return;
+    if (io.KeyCtrl) return controlKeys(io.KeyShift);
+    if (pressed(GLFW_KEY_SLASH) && io.KeyShift) state.shortcuts = !state.shortcuts;
+    for (int i = 0; i < 4; ++i)
+      if (pressed(GLFW_KEY_1 + i)) state.maximised = state.maximised == i ? std::nullopt : std::optional(i);
+    if (pressed(GLFW_KEY_L)) state.loupe = !state.loupe;
+    if (pressed(GLFW_KEY_P)) {
+      state.playing = !state.playing;
+      if (state.playing && state.time < 0) state.time = 0;
+    }
+    if (pressed(GLFW_KEY_F)) {
+      state.frames.clear();
+      state.orbit = Orbit{};
+    }
+    if (pressed(GLFW_KEY_DELETE) && state.selection.node) run({document::RemoveNodes{{*state.selection.node}}});
+  }
+
+  void draw() {
+    const Palette& palette = paletteOf(state.theme);
+    if (look != std::pair(state.theme, state.scale)) {
+      look = {state.theme, state.scale};
+      applyLook(palette, state.scale);
+    }
+    keys();
+    play();
+    const Panel panel{session, session.project(), *following, photos, texts, palette, plantTexture, exporting, state};
+    std::vector<Step> steps = shell(panel);
+    for (Step& taken : steps) run(std::move(taken));
+    askForPlant();
+    for (const Wish& wish : std::exchange(state.wishes, {})) carryOut(wish);
+  }
+
+  /// What is typed and listed may have characters that no font has yet.
+  void wantTyped() {
+    if (state.describing) fonts.want(state.descriptionDraft);
+    if (state.dialog.kind == DialogKind::None) return;
+    std::error_code none;
+    fonts.want(state.dialog.folder.string());
+    for (fs::directory_iterator it(state.dialog.folder, fs::directory_options::skip_permission_denied, none), end; !none && it != end; it.increment(none))
+      fonts.want(it->path().filename().string());
+  }
+};
+
+Studio::Studio(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
+Studio::Studio(Studio&&) noexcept = default;
+Studio& Studio::operator=(Studio&&) noexcept = default;
+Studio::~Studio() = default;
+
+Result<Studio> Studio::create(StudioOptions options) {
+  auto texts = Texts::load();
+  if (!texts) return texts.failure();
+  Studio studio(std::make_unique<Inside>(std::move(options), std::move(*texts)));
+  if (!FontBook::isInstalled())
+    studio.inside_->tell(NoticeKind::Warned, "Chinese cannot be shown: the font is missing (on Debian: apt-get install fonts-wqy-microhei)");
+  return studio;
+}
+
+Result<void> Studio::open(const fs::path& project) { return inside_->open(project); }
+
+Result<void> Studio::runLine(std::string_view line) {
+  const auto ran = inside_->session.runLine(line);
+  if (!ran) return ran.failure();
+  inside_->changed();
+  return {};
+}
+
+void Studio::drop(const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) {
+    if (file.extension() == ".axil") {
+      inside_->carryOut(WishOpen{file});
+      continue;
+    }
+    const document::Project& project = inside_->session.project();
+    const std::string view = viewFor(project, file);
+    if (view.empty()) {
+      inside_->tell(NoticeKind::Warned, inside_->t("all_views_taken"));
+      return;
+    }
+    const bool exists = document::viewNamed(project, view).has_value();
+    inside_->run(exists ? Step{document::RelinkPhoto{view, file.string()}} : Step{document::AddView{view, file.string()}});
+    inside_->state.way = Way::Photos;
+  }
+}
+
+bool Studio::prepareFonts() {
+  inside_->wantTyped();
+  return inside_->fonts.prepare(inside_->state.scale);
+}
+
+void Studio::frame() {
+  inside_->takeAnswers();
+  inside_->draw();
+}
+
+bool Studio::isBusy() const {
+  const Inside& in = *inside_;
+  return in.state.playing || in.follower.busy() || in.asked != in.revision || in.photos.busy() || in.plantIsBehind() || in.exporting.running;
+}
+
+bool Studio::hasEnded() const { return inside_->ended; }
+void Studio::askToEnd() { inside_->carryOut(WishQuit{}); }
+const Session& Studio::session() const { return inside_->session; }
+UiState& Studio::state() { return inside_->state; }
+
+fs::path samplesFolder() {
+  std::error_code none;
+  const fs::path program = fs::read_symlink("/proc/self/exe", none);
+  for (const fs::path& folder : {program.parent_path().parent_path() / "share" / "axil" / "samples", fs::path(AXIL_SAMPLES_FOLDER)})
+    if (fs::exists(folder / "lantana" / "lantana.axil", none)) return folder;
+  return {};
+}
+
+}  // namespace axil::ui

@@ -1,0 +1,39 @@
+#pragma once
+/// \file
+/// Private to ui: the small parts that panels are made of, in the project's look. The one header with the window library's types.
+
+#include "ui/panels.hpp"
+
+#define IMGUI_DEFINE_MATH_OPERATORS
+#include <imgui.h>
+
+namespace axil::ui {
+
+/// The fonts of the running window, in the order they were added.
+enum class Face { Body, Small, Heading, Mono };
+[[nodiscard]] ImFont* font(Face face);
+
+enum class Icon { Describe, Photos, Stems, Leaves, Grammar, Grow, Play, Pause, Start, End, Check, Cross, Folder, File, Eye, Expand };
+void drawIcon(ImDrawList& list, Icon icon, ImVec2 centre, float size, Colour colour);
+
+/// Remembers where the last item is, under its key, so that a replayed session can press it.
+void landmark(const Panel& panel, std::string_view key);
+
+enum class Emphasis { Plain, Primary, Quiet };
+bool button(const Panel& panel, std::string_view key, Emphasis emphasis = Emphasis::Plain, float width = 0);
+bool iconButton(const Panel& panel, const char* id, Icon icon, const char* tip, float size);
+/// One of several; true when it was pressed.
+bool choice(const Panel& panel, std::string_view key, bool chosen, float width);
+void heading(const Panel& panel, std::string_view key);
+/// Wrapped text.
+void words(const Panel& panel, std::string_view text, Colour colour);
+void quiet(const Panel& panel, std::string_view text);
+void say(const Panel& panel, NoticeKind kind, std::string_view text);
+void fact(const Panel& panel, const char* name, const std::string& value);
+void gap(const Panel& panel, float height);
+/// A text on a rounded plate, from its upper left corner; gives its width.
+float chip(ImDrawList& list, ImVec2 at, std::string_view text, Colour ground, Colour ink, float pad);
+void drawMark(ImDrawList& list, Mark mark, ImVec2 at, float radius, Colour colour);
+void dashed(ImDrawList& list, ImVec2 from, ImVec2 to, Colour colour, float width, float dash);
+
+}  // namespace axil::ui
