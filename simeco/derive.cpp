@@ -25,11 +25,11 @@ std::vector<Origin> stepped(const std::vector<Origin>& before, const StepTrace& 
 }
 
 /// As Engine::run, noting where every module comes from.
-Result<Engine::Outcome> runTraced(Engine& engine, const DeriveOptions& options, std::optional<std::int64_t> count, Derivation& derivation) {
+Result<Engine::Outcome> runTraced(Engine& engine, std::optional<std::int64_t> count, Derivation& derivation) {
   derivation.origins.assign(engine.string().size(), Origin{});
   StepTrace trace;
   while (!count || engine.stepsDone() < *count) {
-    if (engine.stepsDone() >= options.limits.steps) return engine.tooManySteps();
+    if (engine.stepsDone() >= engine.stepLimit(count)) return engine.tooManySteps(count);
     const auto outcome = engine.step(&trace);
     if (!outcome) return outcome.failure();
     if (*outcome == Engine::Outcome::Settled) return Engine::Outcome::Settled;
@@ -58,7 +58,7 @@ Result<Derivation> derive(const Grammar& grammar, const DeriveOptions& options) 
   if (auto started = (*engine)->start(); !started) return started.failure();
   const std::optional<std::int64_t> count = options.steps ? options.steps : (*engine)->ownLength();
   if (count && *count < 0) return fail(ErrorCode::BadInput, "a derivation cannot have " + std::to_string(*count) + " steps");
-  const auto outcome = options.traced ? runTraced(**engine, options, count, derivation) : (*engine)->run(count, derivation.modulesPerStep);
+  const auto outcome = options.traced ? runTraced(**engine, count, derivation) : (*engine)->run(count, derivation.modulesPerStep);
   if (!outcome) return outcome.failure();
   derivation.settled = *outcome == Engine::Outcome::Settled;
   derivation.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -35,6 +35,7 @@ struct Limits {
   std::size_t modules = 20'000'000;       ///< in one string
   std::size_t bytes = std::size_t{2} << 30;
   std::int64_t steps = 100'000;
+  std::int64_t settlingSteps = 10'000;    ///< where nobody says how many steps to do: by then nothing may change any more
   std::int64_t loopIterations = 10'000'000;  ///< of all loops of one statement block
   int expressionDepth = 200;
   double seconds = 600;                   ///< of wall time; the only limit that a slower machine meets earlier

@@ -68,7 +68,10 @@ Failure Engine::State::failure(const Error& error, const CompiledRule* rule) con
 }
 
 Failure Engine::State::tooMany(const char* what, std::size_t limit, const CompiledRule* rule) const {
-  std::string message = "the derivation would need more than " + std::to_string(limit) + " " + what + " " + stepText(steps);
+  return limitReached("the derivation would need more than " + std::to_string(limit) + " " + what + " " + stepText(steps), rule);
+}
+
+Failure Engine::State::limitReached(std::string message, const CompiledRule* rule) const {
   const auto most = std::max_element(fired.begin(), fired.end());
   if (rule == nullptr) rule = lastRule;
   if (most != fired.end() && *most > 0) rule = &program->main().productions.rules[static_cast<std::size_t>(most - fired.begin())];
@@ -213,30 +216,38 @@ Result<Engine::Outcome> Engine::step(StepTrace* trace) {
 
 Result<Engine::Outcome> Engine::run(std::optional<std::int64_t> count, std::vector<std::size_t>& modulesPerStep) {
   State& s = *state_;
-  const Limits& limits = s.options.limits;
+  const std::int64_t limit = stepLimit(count);
   Machine& m = s.machine();
   const auto wanted = [&] { return m.newLength ? m.newLength : count; };
-  if (count && *count > s.steps && *count <= limits.steps && s.canLeap()) return s.leap(*count - s.steps, modulesPerStep);
+  if (count && *count > s.steps && *count <= limit && s.canLeap()) return s.leap(*count - s.steps, modulesPerStep);
   while (!s.stopped && (!wanted() || s.steps < *wanted())) {
-    if (s.steps >= limits.steps) return tooManySteps();
+    if (s.steps >= limit) return tooManySteps(count);
     const auto outcome = step();
     if (!outcome) return outcome.failure();
     if (*outcome == Outcome::Settled) {
       if (!count) return Outcome::Settled;
       // The remaining steps change nothing: they are only counted.
-      if (*count > limits.steps) return tooManySteps();
+      if (*count > limit) return tooManySteps(count);
       modulesPerStep.resize(modulesPerStep.size() + static_cast<std::size_t>(*count - s.steps), s.string.size());
       s.steps = *count;
       return Outcome::Settled;
     }
     modulesPerStep.push_back(s.string.size());
-    const double known = wanted() ? static_cast<double>(*wanted()) : static_cast<double>(limits.steps);
+    const double known = wanted() ? static_cast<double>(*wanted()) : static_cast<double>(limit);
     s.options.watch.report("deriving", static_cast<double>(s.steps) / std::max(1.0, known));
   }
   return Outcome::Changed;
 }
 
-Failure Engine::tooManySteps() const { return state_->tooMany("steps", static_cast<std::size_t>(state_->options.limits.steps), nullptr); }
+std::int64_t Engine::stepLimit(const std::optional<std::int64_t>& count) const {
+  const Limits& limits = state_->options.limits;
+  return count ? limits.steps : std::min(limits.steps, limits.settlingSteps);
+}
+
+Failure Engine::tooManySteps(const std::optional<std::int64_t>& count) const {
+  const std::string limit = std::to_string(stepLimit(count)) + " steps";
+  return state_->limitReached(count ? "the derivation is limited to " + limit : "the string still changes after " + limit + ", and no number of steps was given", nullptr);
+}
 
 Result<void> Engine::finish() {
   State& s = *state_;

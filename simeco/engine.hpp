@@ -58,7 +58,9 @@ class Engine {
   Result<void> finish();
 
   /// The error for a derivation that needs more steps than its limit, with the rule that was growing.
-  [[nodiscard]] Failure tooManySteps() const;
+  /// The limit on steps in force: of a stated number of steps, or of steps until nothing changes.
+  [[nodiscard]] std::int64_t stepLimit(const std::optional<std::int64_t>& count) const;
+  [[nodiscard]] Failure tooManySteps(const std::optional<std::int64_t>& count) const;
   /// The homomorphism of `string`, which must be one that this engine made.
   [[nodiscard]] Result<Image> imageOf(const ModuleString& string) const;
 

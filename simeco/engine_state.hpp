@@ -90,6 +90,8 @@ struct Engine::State {
   /// The error of a machine in trouble, with the rule and step it happened at.
   [[nodiscard]] Failure failure(const Error& error, const CompiledRule* rule) const;
   [[nodiscard]] Failure tooMany(const char* what, std::size_t limit, const CompiledRule* rule) const;
+  /// A failure that also names the rule that was growing the string: `rule`, or the one that fired most.
+  [[nodiscard]] Failure limitReached(std::string message, const CompiledRule* rule) const;
   [[nodiscard]] Result<void> mayGoOn() const;
   [[nodiscard]] Result<void> runHeader(const Code& code, Instance& instance, std::uint64_t which);
   [[nodiscard]] Result<void> startInstance(Instance& instance);
