@@ -491,7 +491,7 @@ Result<PlantHistory> recordPlant(const Grammar& grammar, std::size_t index, std:
   const auto count = stepsFor(options, **engine, history->deriveTime);
   StepTrace trace;
   while (!history->settled && (!count || (*engine)->stepsDone() < *count)) {
-    if ((*engine)->stepsDone() >= options.limits.steps) return (*engine)->tooManySteps();
+    if ((*engine)->stepsDone() >= (*engine)->stepLimit(count)) return (*engine)->tooManySteps(count);
     const auto outcome = (*engine)->step(&trace);
     if (!outcome) return outcome.failure();
     history->settled = *outcome == Engine::Outcome::Settled;
