@@ -2,6 +2,7 @@
 
 #include "base/text.hpp"
 #include "document/command_words.hpp"
+#include "document/degrees.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -32,9 +33,8 @@ std::optional<Number> wholeNumber(std::string_view text) {
 
 // Degrees are for people; not every angle is a number of degrees exactly, and those few are printed in radians.
 std::string angleText(Angle angle) {
-  for (const double degrees : {roundedTo(angle.degrees(), 9), angle.degrees()})
-    if (Angle::fromDegrees(degrees) == angle) return shortest(degrees);
-  return shortest(angle.radians()) + "rad";
+  const double degrees = degreesOf(angle);
+  return Angle::fromDegrees(degrees) == angle ? shortest(degrees) : shortest(angle.radians()) + "rad";
 }
 
 std::optional<Angle> angleFrom(std::string_view text) {

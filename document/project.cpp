@@ -2,6 +2,7 @@
 
 #include "base/files.hpp"
 #include "base/text.hpp"
+#include "document/degrees.hpp"
 #include "document/json_lines.hpp"
 #include "document/json_reader.hpp"
 
@@ -253,9 +254,6 @@ Json stemJson(const ProjectStem& stem) {
   addExtras(json, stem.extras);
   return json;
 }
-
-// A degree value that was read comes back as it was: the way through radians may cost its last digit.
-double degreesOf(Angle angle) { return roundedTo(angle.degrees(), 9); }
 
 Json leavesJson(const ProjectLeaves& leaves) {
   const quantify::LeafArrangement& a = leaves.arrangement;

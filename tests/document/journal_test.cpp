@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -326,6 +327,29 @@ TEST_F(JournalTest, AFolderThatCannotBeMadeIsOneClearError) {
   const auto lock = ProjectLock::take(folder_ / "file", project_);
   ASSERT_FALSE(lock);
   EXPECT_EQ(lock.error().code, ErrorCode::Unwritable);
+}
+
+// The limit on file sizes makes the system refuse to write on, as a full disk does.
+TEST_F(JournalTest, ALineThatDidNotFitLeavesNoHalfBehind) {
+  ::signal(SIGXFSZ, SIG_IGN);
+  History history(plantOf(20));
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  {
+    auto journal = Journal::begin(state_, subject(), history);
+    ASSERT_TRUE(journal);
+    const rlimit full{fs::file_size(journal->path()) + 20, before.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &full);
+    const auto failed = journal->append(Step{SetName{std::string(100, 'x')}});
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().code, ErrorCode::Unwritable);
+    act(history, *journal, "set_name one");
+  }
+  const auto recovered = recover(onlyJournal());
+  ASSERT_TRUE(recovered);
+  EXPECT_TRUE(recovered->faults.empty()) << recovered->faults.front();
+  expectSame(recovered->history, history);
 }
 
 TEST(StateFolder, FollowsTheXdgVariableElseTheHomeFolder) {

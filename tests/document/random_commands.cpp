@@ -260,9 +260,21 @@ Command changeStem(const There& there) {
   }
 }
 
+/// With numbers for every model, though each uses only some.
+Camera camera(Rng& rng) {
+  Camera camera;
+  camera.model = anyModel(rng);
+  camera.focal_px = glm::dvec2{2778, 2777};
+  camera.centre_px = {600, 800};
+  camera.distortion = {1e-3, 0, 0, 0, 0};
+  camera.scale_px_per_unit = 2000;
+  camera.translation = {0, 0.4, 2};
+  return camera;
+}
+
 Command changeView(const There& there) {
   const std::string view = there.view();
-  switch (there.rng.below(11)) {
+  switch (there.rng.below(12)) {
     case 0: return RenameView{view, there.view()};
     case 1: return SwapViews{view, there.view()};
     case 2: return RelinkPhoto{view, "elsewhere/" + view + ".jpg"};
@@ -276,6 +288,7 @@ Command changeView(const There& there) {
     }
     case 8: return ClearScale{view};
     case 9: return ClearFocal{view};
+    case 10: return SetCamera{view, camera(there.rng)};
     default: return ClearOrigin{view};
   }
 }
