@@ -1,5 +1,7 @@
 #include "ui/following.hpp"
 
+#include "document/measurable.hpp"
+
 #include <algorithm>
 #include <chrono>
 
@@ -57,25 +59,42 @@ class Follow {
     following->measured = derived_.measured(question.open);
     following->skeleton = derived_.skeleton(question.open);
     following->measurements = derived_.measurements(question.open);
+    const auto part = following->skeleton.trouble ? showPart(*following, question.open) : std::nullopt;
     following->photos = derived_.photoTroubles(question.open);
-    for (const GrammarKind kind : kKinds) addGrammar(*following, question, kind);
+    document::Derived& source = part ? part_ : derived_;
+    for (const GrammarKind kind : kKinds) addGrammar(*following, source, part ? *part : question.open, kind);
     following->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     return following;
   }
 
  private:
-  void addGrammar(Following& following, const FollowQuestion& question, GrammarKind kind) {
+  /// While something is still missing, what is there already is shown: its skeleton stands in for the last good one.
+  std::optional<document::OpenProject> showPart(Following& following, const document::OpenProject& open) {
+    auto part = document::measurablePart(open.project);
+    if (!part) return std::nullopt;
+    document::OpenProject shown{std::move(*part), open.folder};
+    const auto skeleton = part_.skeleton(shown);
+    if (!skeleton.isCurrent()) return std::nullopt;
+    following.partly = true;
+    following.skeleton.good = skeleton.good;
+    following.measurements = part_.measurements(shown);
+    if (!following.measured.isCurrent()) following.measured.good = part_.measured(shown).good;
+    return shown;
+  }
+
+  void addGrammar(Following& following, document::Derived& derived, const document::OpenProject& open, GrammarKind kind) {
     const auto at = static_cast<std::size_t>(kind);
-    const auto grammar = derived_.grammar(question.open, kind);
-    const auto text = derived_.grammarText(question.open, kind);
+    const auto grammar = derived.grammar(open, kind);
+    const auto text = derived.grammarText(open, kind);
     following.grammarTroubles[at] = grammar.trouble;
-    const std::uint64_t seed = question.open.project.seed;
+    const std::uint64_t seed = open.project.seed;
     Kept& kept = kept_[at];
     if (grammar.good && text.good && (kept.grammar != grammar.good || kept.seed != seed)) kept = {grammar.good, seed, grow(*grammar.good, *text.good, seed)};
     following.grammars[at] = kept.grown;
   }
 
   document::Derived derived_;
+  document::Derived part_;
   std::array<Kept, 3> kept_;
 };
 

@@ -38,6 +38,7 @@ struct Following {
   std::vector<document::PhotoTrouble> photos;
   std::array<std::shared_ptr<const GrownGrammar>, 3> grammars;       ///< by GrammarKind; null: there has not been one yet
   std::array<std::optional<Error>, 3> grammarTroubles;
+  bool partly = false;                   ///< skeleton and all after it are of the part that can be measured already
   double seconds = 0;                    ///< how long it took
 
   [[nodiscard]] const GrownGrammar* grammar(document::GrammarKind kind) const { return grammars[static_cast<std::size_t>(kind)].get(); }

@@ -139,7 +139,8 @@ struct HeadlessStudio::Inside {
     canvas.reset();
   }
 
-  void frame() {
+  enum class Drawing { Done, Skipped };
+  void frame(Drawing drawing = Drawing::Skipped) {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(canvas->width()), static_cast<float>(canvas->height())};
     io.DeltaTime = 1 / 60.0f;
@@ -149,6 +150,7 @@ struct HeadlessStudio::Inside {
     ImGui::NewFrame();
     studio->frame();
     ImGui::Render();
+    if (drawing == Drawing::Skipped) return;
     canvas->begin();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   }
@@ -162,6 +164,7 @@ struct HeadlessStudio::Inside {
       if (quietFrames == 0) std::this_thread::sleep_for(2ms);
       if (std::chrono::steady_clock::now() > latest) return fail(ErrorCode::LimitReached, "the work in the background did not end within two minutes");
     }
+    frame(Drawing::Done);
     return {};
   }
 

@@ -313,8 +313,9 @@ Taken stemsPanel(const Panel& panel) {
     if (ImGui::InvisibleButton("stem", {width, height}) && !stem.nodes.empty()) panel.state.selection.node = stem.nodes.back();
     landmark(panel, "stem_" + std::to_string(stem.id.value));
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    if (stem.id == chosen || ImGui::IsItemHovered())
-      list.AddRectFilled(at, {at.x + width, at.y + height}, stem.id == chosen ? panel.palette.accentSoft : panel.palette.hovered, panel.px(6));
+    const bool isChosen = chosen && *chosen == stem.id;
+    if (isChosen || ImGui::IsItemHovered())
+      list.AddRectFilled(at, {at.x + width, at.y + height}, isChosen ? panel.palette.accentSoft : panel.palette.hovered, panel.px(6));
     list.AddLine({at.x + panel.px(8), at.y + height / 2}, {at.x + panel.px(34), at.y + height / 2}, colourOf(stem.id), panel.px(3));
     drawMark(list, markOf(stem.id), {at.x + panel.px(21), at.y + height / 2}, panel.px(4.5f), colourOf(stem.id));
     const std::string label = filled(panel.t("stem_n"), {{"stem", std::to_string(stem.id.value)}});
@@ -422,7 +423,6 @@ Taken growPanel(const Panel& panel) {
     ImGui::PopStyleColor();
     if (button(panel, "cancel", Emphasis::Plain, -1)) panel.state.wishes.push_back(WishCancelExport{});
   } else {
-    if (panel.state.exportFolder.empty()) panel.state.exportFolder = (panel.session.openProject().folder / (panel.project.name + "-out")).lexically_normal().string();
     ImGui::SetNextItemWidth(-1);
     ImGui::InputText("##folder", &panel.state.exportFolder);
     if (button(panel, "export_now", Emphasis::Primary, -1)) panel.state.wishes.push_back(WishExport{panel.state.exportFolder});

@@ -40,7 +40,7 @@ Taken nodeFacts(const Panel& panel, const skeleton3d::ClickedNode& node) {
   if (solved != nullptr) {
     gap(panel, 4);
     fact(panel, "x, y, z", fixed(solved->position.at.x, 3) + ", " + fixed(solved->position.at.y, 3) + ", " + fixed(solved->position.at.z, 3));
-    fact(panel, panel.t("sure"), "± " + length(panel, std::max({solved->sigma.x, solved->sigma.y, solved->sigma.z})));
+    fact(panel, panel.t("sure"), "± " + fixed(std::max({solved->sigma.x, solved->sigma.y, solved->sigma.z}), 4) + " " + panel.project.unit);
   }
   gap(panel, 4);
   double width = 2 * node.radius.value_or(0);

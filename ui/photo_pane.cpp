@@ -363,7 +363,9 @@ Taken photoPane(const Panel& panel, int number, Area area) {
   panel.state.shownFrames[view.view.name] = {pane.lens.frame, {pane.lens.middle.x, pane.lens.middle.y}};
   list.PushClipRect(low, high, true);
   drawPhoto(pane);
+  list.PushClipRect(pane.lens.onScreen({{0, 0}}), pane.lens.onScreen({size}), true);
   drawEpipolar(pane);
+  list.PopClipRect();
   const auto chosen = panel.state.selection.node ? stemOf(panel.project, *panel.state.selection.node) : std::nullopt;
   for (const auto& stem : panel.project.stems) drawStem(pane, stem.stem, stem.stem.id == chosen);
   if (panel.state.selection.node) drawSelected(pane, *panel.state.selection.node);

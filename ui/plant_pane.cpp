@@ -27,10 +27,16 @@ const skeleton3d::Node* nodeWith(const skeleton3d::Skeleton& skeleton, skeleton3
   return nullptr;
 }
 
+/// What is shown is not of the present project: it could not be measured.
+bool isPast(const Panel& panel) { return panel.following.skeleton.trouble && !panel.following.partly; }
+
 void drawSkeleton(const View3d& view) {
   const auto& shown = view.panel.following.skeleton;
   if (!shown.good) return;
-  const std::uint32_t alpha = shown.trouble ? 110 : 235;  // the last good one stands back
+  const bool young = view.panel.state.time >= 0 && view.panel.following.grammar(document::GrammarKind::Initial) != nullptr &&
+                     view.panel.state.time < view.panel.following.grammar(document::GrammarKind::Initial)->end;
+  // The last good one stands back, and so does what has not grown yet.
+  const std::uint32_t alpha = young ? 45 : isPast(view.panel) ? 110 : 235;
   const auto chosen = view.panel.state.selection.node ? stemOf(view.panel.project, *view.panel.state.selection.node) : std::nullopt;
   for (const skeleton3d::Stem& stem : shown.good->stems) {
     const Colour colour = withAlpha(colourOf(stem.id), alpha);
@@ -116,13 +122,13 @@ void plantPane(const Panel& panel, Area area) {
   list.PushClipRect(low, high, true);
   if (panel.state.showPlant && panel.plantPicture.id() != 0)
     list.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(panel.plantPicture.id())), low, high, {0, 0}, {1, 1},
-                         panel.following.skeleton.trouble ? rgb(0xFFFFFF, 120) : rgb(0xFFFFFF), panel.px(4));
+                         isPast(panel) ? rgb(0xFFFFFF, 120) : rgb(0xFFFFFF), panel.px(4));
   if (panel.state.showSkeleton) drawSkeleton(view);
   ImGui::PushFont(font(Face::Small));
   const float pad = panel.px(7);
   const float width = chip(list, {area.x + pad, area.y + pad}, std::string("4  ") + panel.t("view_plant"), withAlpha(panel.palette.panel, 225), panel.palette.text, pad);
   if (panel.following.skeleton.trouble)
-    chip(list, {area.x + 1.6f * pad + width, area.y + pad}, panel.t("last_good"), withAlpha(panel.palette.panel, 225), panel.palette.warning, pad);
+    chip(list, {area.x + 1.6f * pad + width, area.y + pad}, panel.t(panel.following.partly ? "so_far" : "last_good"), withAlpha(panel.palette.panel, 225), panel.palette.warning, pad);
   ImGui::PopFont();
   const float size = panel.px(26);
   for (int i = 0; i < 2; ++i) {

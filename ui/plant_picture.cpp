@@ -62,7 +62,7 @@ PlantDrawer::Work drawingWork() {
 skeleton3d::Camera orbitCamera(const Orbit& orbit, PlantPoint middle, double reach, glm::ivec2 size_px) {
   const double around = orbit.azimuth.radians(), up = orbit.elevation.radians();
   const glm::dvec3 towardsPlant{-std::sin(around) * std::cos(up), -std::sin(up), -std::cos(around) * std::cos(up)};
-  const double focal = 2.2 * std::min(size_px.x, size_px.y);
+  const double focal = 2.4 * std::min(static_cast<double>(size_px.y), 1.5 * size_px.x);
   skeleton3d::Camera camera = skeleton3d::cameraAt(skeleton3d::rotationLookingAlong(PlantDirection::along(towardsPlant), PlantDirection::up()),
                                                    {.target = middle, .distance = 5.2 * reach / orbit.zoom, .focal_px = focal, .size_px = size_px});
   camera.centre_px += orbit.shift * static_cast<double>(size_px.y);

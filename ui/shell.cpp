@@ -55,7 +55,7 @@ void topBar(const Panel& panel, Area area) {
 
   static constexpr std::array<const char*, 3> kLanguages = {"English", "繁體中文", "简体中文"};
   const float right = area.x + area.width;
-  ImGui::SetCursorScreenPos({right - panel.px(322), middle - height / 2});
+  ImGui::SetCursorScreenPos({right - panel.px(296), middle - height / 2});
   ImGui::SetNextItemWidth(panel.px(116));
   if (ImGui::BeginCombo("##language", kLanguages[static_cast<std::size_t>(state.language)])) {
     for (std::size_t i = 0; i < kLanguages.size(); ++i)
@@ -170,6 +170,7 @@ std::vector<Step> shell(const Panel& panel) {
   panel.state.status.clear();
   panel.state.landmarks.clear();
   panel.state.plantPaneSize = {0, 0};
+  ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, screen, p.ground);
   part(panel, "##bar", barArea, p.panel, 0, steps, [&] { return topBar(panel, barArea), Taken{}; });
   part(panel, "##left", leftArea, p.panel, 12, steps, [&] { return leftColumn(panel); });
   part(panel, "##centre", middle, p.ground, 0, steps, [&] { return centre(panel, middle); });

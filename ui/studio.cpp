@@ -72,6 +72,7 @@ struct Studio::Inside {
     state.theme = options.theme;
     state.language = options.language;
     state.scale = options.scale;
+    state.exportFolder = (fs::current_path() / "plant-out").string();
     fonts.want(texts.allCharacters());
     fonts.want("°±•·–…→English繁體中文简体中文");
   }
@@ -115,6 +116,7 @@ struct Studio::Inside {
     state = std::move(fresh);
     following = std::make_shared<Following>();
     drawn.reset();
+    state.exportFolder = ((isSample() || session.path().empty() ? fs::current_path() : session.path().parent_path()) / (session.project().name + "-out")).string();
     plantTexture = Texture{};
     exporting = {};
     changed();
@@ -144,9 +146,15 @@ struct Studio::Inside {
     if (auto recovered = document::recover(journal)) recovered->journal.remove();
   }
 
+  /// Samples are everybody's: what is made of them is kept elsewhere.
+  [[nodiscard]] bool isSample() const {
+    const fs::path samples = samplesFolder();
+    return !samples.empty() && session.path().string().starts_with(samples.string());
+  }
+
   void save() {
-    if (session.path().empty()) {
-      state.dialog = {DialogKind::SaveAs, session.openProject().folder, session.project().name + ".axil", ""};
+    if (session.path().empty() || isSample()) {
+      state.dialog = {DialogKind::SaveAs, isSample() ? fs::current_path() : session.openProject().folder, session.project().name + ".axil", ""};
       return;
     }
     if (const auto saved = session.save(); !saved) return fail(saved.error());
