@@ -419,7 +419,9 @@ class Compiler {
 
   Term term(ExprId id, const Scope& scope) {
     if (tooDeep(id)) return {};
-    if (const auto value = constantOf(id, scope)) return {.value = *value};
+    // In SimEco a constant that is no finite number is left to the run, which says whose it is.
+    const auto value = constantOf(id, scope);
+    if (value && (std::isfinite(*value) || grammar_.language == Language::LSystem)) return {.value = *value};
     if (const auto slot = localOf(id, scope)) return {.kind = Term::Kind::Local, .slot = *slot};
     if (const auto quick = quickTerm(id, scope)) return *quick;
     program_.codes.push_back(code(id, scope));
