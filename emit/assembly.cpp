@@ -28,13 +28,16 @@ simeco::Attribute colour(Grammar& grammar, const glm::dvec4& c) {
   return b.attribute("ColorFront", b.call("RGBA", {b.printed(c.x, kPlain), b.printed(c.y, kPlain), b.printed(c.z, kPlain), b.printed(c.w, kPlain)}));
 }
 
+bool isRolled(const PlannedLeaf& leaf, const Digits& digits) { return rounded(leaf.roll.radians(), digits.angle) != 0; }
+/// Whether the leaf has an S(0) as joint between its turn and its roll; a stalk is joint enough.
+bool needsJoint(const PlannedLeaf& leaf, const Digits& digits) { return leaf.petioleStage < 0 && isRolled(leaf, digits); }
+
 void addLeaf(Builder& b, std::vector<Module>& to, const PlannedLeaf& leaf, const Digits& digits) {
   to.push_back(Builder::module("["));
   b.turn(to, leaf.turn, digits.angle);
-  const bool rolled = rounded(leaf.roll.radians(), digits.angle) != 0;
   if (leaf.petioleStage >= 0) to.push_back(b.organ("S", leaf.petioleStage));
-  else if (rolled) to.push_back(b.organ("S", 0));  // a joint between the turn and the roll
-  if (rolled) b.turn(to, {Angle{}, leaf.roll}, digits.angle);
+  if (needsJoint(leaf, digits)) to.push_back(b.organ("S", 0));
+  if (isRolled(leaf, digits)) b.turn(to, {Angle{}, leaf.roll}, digits.angle);
   to.push_back(b.organ("L", leaf.leafStage));
   to.push_back(Builder::module("]"));
 }
@@ -117,10 +120,16 @@ std::vector<std::string> heading(const Plan& plan) {
   return lines;
 }
 
+/// Whether any rule makes an S(0): a segment that something stands on, or a joint of a leaf at the collar.
+bool hasGrowingPoints(const Plan& plan) {
+  const auto carries = [](const PlannedSegment& s) { return !s.children.empty() || !s.leaves.empty(); };
+  return std::any_of(plan.segments.begin(), plan.segments.end(), carries) || std::any_of(plan.rootLeaves.begin(), plan.rootLeaves.end(), [&](const PlannedLeaf& l) { return needsJoint(l, plan.digits); });
+}
+
 void addStages(const Plan& plan, Grammar& grammar, const EmitOptions& options) {
   std::vector<Stage> stems;
   stems.reserve(plan.segments.size() + plan.petioles.size() + 1);
-  stems.push_back(growingPointStage(grammar, plan.growingPoint, options));
+  if (hasGrowingPoints(plan)) stems.push_back(growingPointStage(grammar, plan.growingPoint, options));
   const auto petiole = [&](std::size_t p) {
     return stemStage(grammar, plan.petioleStageOf(p), plan.petioles[p], plan.petioles[p] * kPetioleRadius, plan.digits, options);
   };
