@@ -122,10 +122,11 @@ Result<void> writeGrowth(Output& output, const Growth& growth, const skeleton3d:
   return render::writeAnimation(folder / "growth.mp4", at, animation, options.chain.watch);
 }
 
-double metresPer(const std::string& unit) {
+/// How long one `unit` is in metres, the unit of glTF; none for a word that is not known.
+std::optional<double> metresPer(const std::string& unit) {
   static const std::map<std::string, double> metres = {{"m", 1.0}, {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}};
   const auto known = metres.find(unit);
-  return known == metres.end() ? 1.0 : known->second;
+  return known == metres.end() ? std::nullopt : std::optional(known->second);
 }
 
 std::string reportText(const BuildReport& report) {
@@ -169,7 +170,9 @@ Result<void> draw(Output& output, const Grown& grown, const BuildOptions& option
 }
 
 Result<void> writeMesh(Output& output, const render::PlantMesh& mesh, const std::string& unit) {
-  const auto glb = render::glbBytes(mesh, {.metresPerUnit = metresPer(unit)});
+  const auto metres = metresPer(unit);
+  if (!metres) output.notes.push_back("the unit '" + unit + "' is none of m, dm, cm and mm; plant.glb takes it for a metre");
+  const auto glb = render::glbBytes(mesh, {.metresPerUnit = metres.value_or(1)});
   if (!glb) return glb.failure();
   return output.write("plant.glb", *glb);
 }
@@ -220,6 +223,7 @@ Result<BuildReport> build(const OpenProject& open, const fs::path& folder, const
   options.chain.watch.report("drawing", 0.3);
   if (auto w = draw(output, *grown, options); !w) return w.failure();
   if (auto w = writeMesh(output, grown->mesh, open.project.unit); !w) return w.failure();
+  output.notes.insert(output.notes.end(), grown->mesh.notes.begin(), grown->mesh.notes.end());
   BuildReport report = reportOn(open.project, *skeleton, *measurements, grown->plant);
   report.suspects = clicks->suspects;
   return finish(output, std::move(report));

@@ -37,10 +37,11 @@ int nestingDepth(std::string_view text) {
   return deepest;
 }
 
-// The library's own message without its code and position, which we give as line and column.
+// The library's own message without its code "[...] " and its position "parse error at ...: ", which we give as line and column.
 std::string reasonOf(const std::string& message) {
-  const std::size_t after = message.rfind(": ");
-  std::string reason = after == std::string::npos ? message : message.substr(after + 2);
+  const std::size_t code = message.find("] ");
+  std::string reason = code == std::string::npos ? message : message.substr(code + 2);
+  if (const std::size_t colon = reason.find(": "); reason.starts_with("parse error at") && colon != std::string::npos) reason.erase(0, colon + 2);
   if (reason.size() > 160) reason = reason.substr(0, 157) + "...";
   return reason;
 }
