@@ -3,6 +3,8 @@
 
 #include "app/commands.hpp"
 #include "app/completion.hpp"
+#include "app/environment_options.hpp"
+#include "app/terminal.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -32,6 +34,15 @@ void addLiteral(CLI::App* sub, TurningRule& turning) {
 
 void addSeed(CLI::App* sub, std::uint64_t& seed) {
   sub->add_option("--seed", seed, "Seed of every random choice; the same seed grows the same plant")->capture_default_str();
+}
+
+void addPlant(CLI::App* sub, std::string& plant, const char* otherwise) {
+  sub->add_option("--plant", plant, std::string("Name of one plant of the ecosystem; by default ") + otherwise)->option_text("NAME");
+}
+
+void addLimits(CLI::App* sub, simeco::Limits& limits) {
+  sub->add_option("--max-modules", limits.modules, "Stop with a message at this many modules")->check(CLI::PositiveNumber)->capture_default_str();
+  sub->add_option("--max-seconds", limits.seconds, "Stop with a message after this much time")->check(CLI::PositiveNumber)->capture_default_str();
 }
 
 void addKeywords(CLI::App& app, int& status, KeywordsCommand& command) {
@@ -83,7 +94,9 @@ void addDerive(CLI::App& app, int& status, DeriveCommand& command) {
                   "  axil derive plant.simeco --steps 3\n  axil derive plant.simeco --counts    # modules after every step, letters of the last string");
   sub->add_option("GRAMMAR", command.grammar, "A .simeco or .l file")->required();
   sub->add_option("--steps", command.steps, "Derivation steps; by default the file's own length, else until nothing changes")->check(CLI::NonNegativeNumber);
+  addPlant(sub, command.plant, "the first");
   addSeed(sub, command.seed);
+  addLimits(sub, command.limits);
   auto* counts = sub->add_flag_callback("--counts", [&] { command.print = DeriveCommand::Print::Counts; }, "Print JSON: modules a step, letters of the string");
   sub->add_flag_callback("--stats", [&] { command.print = DeriveCommand::Print::Stats; }, "Print JSON: modules, seconds, bytes, threads; no string")->excludes(counts);
   sub->add_flag("--single", command.singlePrecision, "Keep parameters in single precision, as classic programs do");
@@ -94,16 +107,20 @@ void addGrow(CLI::App& app, int& status, GrowCommand& command) {
   auto* sub = add(app, status, command, "grow", "Grow a grammar into a picture, an animation, a mesh or a skeleton file",
                   "  axil grow plant.simeco -o plant.png\n  axil grow plant.simeco --time 12.5 -o young.png --view front\n"
                   "  axil grow plant.simeco --frames 120 -o growth.mp4      # or .webm, or a folder of PNGs\n"
-                  "  axil grow plant.simeco -o plant.glb                    # or .obj, .ply, .json");
+                  "  axil grow plant.simeco -o plant.glb                    # or .obj, .ply, .json\n"
+                  "  axil grow plant.simeco -o windy.png --wind 0.5,0,0 --temperature 15 --obstacle sphere:0.2,0.6,0,0.15");
   sub->add_option("GRAMMAR", command.grammar, "A .simeco or .l file")->required();
   sub->add_option("-o,--out", command.out, "Where to: its ending chooses .json .glb .obj .ply .png .mp4 .webm; with --frames also a folder")->required();
   auto* time = sub->add_option("--time", command.time, "Moment of growth in the grammar's time; by default when all is grown")->check(CLI::NonNegativeNumber);
   sub->add_option("--steps", command.steps, "Stop after this many derivation steps, then let what is there grow out")->check(CLI::NonNegativeNumber)->excludes(time);
+  addPlant(sub, command.plant, "all of them");
   addSeed(sub, command.seed);
+  addLimits(sub, command.limits);
   sub->add_option("--frames", command.frames, "How many pictures of the growth from nothing to the chosen moment")->check(CLI::Range(2, 100000));
   sub->add_option("--view", command.view, "front, right, top or quarter")->check(CLI::IsMember({"front", "right", "top", "quarter"}))->capture_default_str();
   sub->add_option("--width", command.width, "Pixels")->check(CLI::Range(16, 8192))->capture_default_str();
   sub->add_option("--height", command.height, "Pixels")->check(CLI::Range(16, 8192))->capture_default_str();
+  addEnvironment(sub, command.environment);
   addLiteral(sub, command.turning);
 }
 
@@ -134,8 +151,7 @@ void addCompletion(CLI::App& app, int& status) {
               "  axil completion zsh > ~/.zfunc/_axil\n  axil completion fish > ~/.config/fish/completions/axil.fish");
   sub->add_option("SHELL", shell, "bash, zsh or fish")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}));
   sub->callback([&app, &status] {
-    std::fputs(completionScript(app, shell).c_str(), stdout);
-    status = 0;
+    status = print(completionScript(app, shell));
   });
 }
 

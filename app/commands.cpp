@@ -2,6 +2,7 @@
 
 #include "app/terminal.hpp"
 #include "base/files.hpp"
+#include "base/rng.hpp"
 #include "document/build.hpp"
 #include "document/skeleton_file.hpp"
 #include "render/render.hpp"
@@ -43,6 +44,20 @@ Result<simeco::Grammar> grammarIn(const std::string& path) {
   for (const Diagnostic& d : file->parsed.diagnostics) error.details.push_back(formatWithCaret(d, file->text, path));
   return fail(std::move(error));
 }
+
+/// The plant of an ecosystem that is called `name`; without a name the first.
+Result<std::size_t> plantNamed(const simeco::Grammar& grammar, const std::string& name) {
+  std::string names;
+  for (std::size_t i = 0; i < grammar.plants.size(); ++i) {
+    if (name.empty() || grammar.plants[i].name == name) return i;
+    names += (names.empty() ? "\"" : ", \"") + grammar.plants[i].name + "\"";
+  }
+  if (names.empty()) return fail(ErrorCode::BadGrammar, "the grammar has no plant");
+  return fail(ErrorCode::BadInput, "the grammar has no plant \"" + name + "\"; it has " + names);
+}
+
+/// Of the random numbers of an ecosystem those of one plant, so that it is the same alone and among the others.
+std::uint64_t seedOf(std::uint64_t seed, std::size_t plant) { return plant == 0 ? seed : Rng(seed).split(plant).bits(); }
 
 /// Runs `chain` on an open project and prints what it gives as `text` says.
 template <class Chain, class Print>
@@ -144,9 +159,15 @@ std::string stringText(const simeco::Grammar& grammar, const simeco::Derivation&
 int run(const DeriveCommand& command) {
   const auto grammar = grammarIn(command.grammar);
   if (!grammar) return report(grammar.error());
+  const auto plant = plantNamed(*grammar, command.plant);
+  if (!plant) return report(plant.error());
+  if (command.plant.empty() && grammar->plants.size() > 1)
+    std::fprintf(stderr, "axil: note: the ecosystem has %zu plants; this is \"%s\", --plant NAME derives another\n", grammar->plants.size(), grammar->plants.front().name.c_str());
   simeco::DeriveOptions options;
+  options.plant = *plant;
   options.steps = command.steps;
-  options.seed = command.seed;
+  options.seed = seedOf(command.seed, *plant);
+  options.limits = command.limits;
   options.threads = command.threads;
   options.singlePrecision = command.singlePrecision;
   options.watch = terminalWatch();
@@ -179,11 +200,14 @@ struct Growing {
 
 /// An L-system has no time of its own: its moments are its steps.
 Result<Growing> growingOfLSystem(const simeco::Grammar& grammar, const GrowCommand& command) {
+  if (command.environment != simeco::Environment{})
+    return fail(ErrorCode::BadInput, "a classic L-system has no environment; its view file bends it (tropism:), so leave options such as --wind out");
   const auto view = simeco::viewBeside(command.grammar);
   if (!view) return view.failure();
   simeco::LSystemPlantOptions options;
   options.derive.view = *view;
   options.derive.derive.seed = command.seed;
+  options.derive.derive.limits = command.limits;
   options.derive.derive.watch = terminalWatch();
   options.derive.derive.steps = command.steps;
   constexpr double kMostSteps = 1e9;  // the engine's own limit is lower
@@ -199,11 +223,13 @@ Result<Growing> growingOfLSystem(const simeco::Grammar& grammar, const GrowComma
                  last->time};
 }
 
-Result<Growing> growingOf(const simeco::Grammar& grammar, const GrowCommand& command) {
+Result<Growing> growingOf(const simeco::Grammar& grammar, std::uint64_t seed, const GrowCommand& command) {
   if (grammar.language == simeco::Language::LSystem) return growingOfLSystem(grammar, command);
   simeco::GrowOptions options;
-  options.seed = command.seed;
+  options.seed = seed;
+  options.limits = command.limits;
   options.watch = terminalWatch();
+  options.environment = command.environment;
   options.turning = command.turning;
   options.upToTime = command.time;
   options.steps = command.steps;
@@ -248,9 +274,9 @@ Result<void> writeAnimation(const Growing& growing, const GrowCommand& command, 
   return render::writeAnimation(command.out, growing.at, animation, terminalWatch());
 }
 
-Result<void> grow(const simeco::Grammar& grammar, const GrowCommand& command) {
+Result<void> grow(const simeco::Grammar& grammar, std::uint64_t seed, const GrowCommand& command) {
   const std::string ending = fs::path(command.out).extension().string();
-  const auto growing = growingOf(grammar, command);
+  const auto growing = growingOf(grammar, seed, command);
   if (!growing) return growing.failure();
   const render::PictureOptions picture{.width_px = command.width, .height_px = command.height, .view = kViews.at(command.view)};
   if (isAnimation(command, ending)) return writeAnimation(*growing, command, picture);
@@ -281,9 +307,12 @@ Result<void> checkOut(const GrowCommand& command) {
 
 int run(const GrowCommand& command) {
   if (const auto out = checkOut(command); !out) return report(out.error());
-  const auto grammar = grammarIn(command.grammar);
+  auto grammar = grammarIn(command.grammar);
   if (!grammar) return report(grammar.error());
-  const auto grown = grow(*grammar, command);
+  const auto plant = plantNamed(*grammar, command.plant);
+  if (!plant) return report(plant.error());
+  if (!command.plant.empty()) grammar->plants = {std::move(grammar->plants[*plant])};
+  const auto grown = grow(*grammar, seedOf(command.seed, *plant), command);
   if (!grown) return report(grown.error());
   endProgress();
   return 0;

@@ -5,6 +5,8 @@
 
 #include "base/turning.hpp"
 #include "document/chain.hpp"
+#include "simeco/environment.hpp"
+#include "simeco/derive.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -45,16 +47,19 @@ int run(const CheckCommand& command);
 
 struct DeriveCommand {
   std::string grammar;
+  std::string plant;  ///< its name; empty: the first
   std::optional<std::int64_t> steps;
   std::uint64_t seed = 1;
   enum class Print { Text, Counts, Stats } print = Print::Text;
   bool singlePrecision = false;
   int threads = 0;
+  simeco::Limits limits;
 };
 int run(const DeriveCommand& command);
 
 struct GrowCommand {
   std::string grammar;
+  std::string plant;  ///< its name; empty: all of them
   std::optional<double> time;
   std::optional<std::int64_t> steps;
   std::uint64_t seed = 1;
@@ -63,7 +68,9 @@ struct GrowCommand {
   std::string view = "quarter";
   int width = 1200;
   int height = 1600;
+  simeco::Environment environment;
   TurningRule turning = TurningRule::Exact;
+  simeco::Limits limits;
 };
 int run(const GrowCommand& command);
 

@@ -15,7 +15,18 @@ using Clock = std::chrono::steady_clock;
 // A signal handler can reach nothing else; the token lives as long as the program.
 CancelToken interrupted;
 
-extern "C" void onInterrupt(int) { interrupted.cancel(); }
+// The second signal ends the program as it would without us: nobody waits for a stuck one.
+extern "C" void onInterrupt(int signal) {
+  std::signal(signal, SIG_DFL);
+  interrupted.cancel();
+}
+
+/// Also a terminal that is closed and a machine that shuts down: what is half done is cleaned up. What the caller chose to
+/// ignore (nohup) stays ignored.
+void watchSignals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(signal, onInterrupt) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
 
 struct ProgressLine {
   Clock::time_point started = Clock::now();
@@ -49,7 +60,7 @@ int print(const std::string& data) {
 }
 
 Watch terminalWatch() {
-  std::signal(SIGINT, onInterrupt);
+  watchSignals();
   const auto line = std::make_shared<ProgressLine>();
   return {[line](std::string_view what, double share) { line->show(what, share); }, &interrupted};
 }

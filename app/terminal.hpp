@@ -15,7 +15,8 @@ int report(const Error& error);
 int print(const std::string& data);
 
 /// Reports progress once the work has gone on for a second: a line that renews itself on a terminal, a line every two
-/// seconds elsewhere. Ctrl+C cancels the work, so that what is half done is cleaned up.
+/// seconds elsewhere. Ctrl+C, a closed terminal and a polite kill cancel the work, so that what is half
+/// done is cleaned up.
 [[nodiscard]] Watch terminalWatch();
 /// Clears the renewing line.
 void endProgress();

@@ -9,9 +9,11 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 AXIL = str(pathlib.Path(sys.argv[1]).resolve())
@@ -231,6 +233,54 @@ class Projects(Case):
         self.refused("skeleton", self.write("p.axil", '{"axil": 1}'), says="stem")
 
 
+    def test_broken_json_says_what_and_where(self):
+        err = self.refused("skeleton", self.write("p.axil", '{\n"axil": 1, "name": NaN}'), says=["line 2", "invalid literal"])
+        self.assertNotIn("json.exception", err)
+
+
+def small_project(**more):
+    """A stem of one segment, 0.3 high, seen by two orthographic cameras."""
+    turned = {"front": [[1, 0, 0], [0, -1, 0], [0, 0, -1]], "right": [[0, 0, -1], [0, -1, 0], [-1, 0, 0]]}
+    views = [{"name": name, "camera": {"model": "orthographic", "scale_px_per_unit": 1000, "centre_px": [300, 400], "rotation": rotation, "translation": [0, 0, 2]}}
+             for name, rotation in turned.items()]
+    nodes = [{"id": n, "clicks": {name: [300, 400 - height] for name in turned}} for n, height in ((1, 0), (2, 300))]
+    return json.dumps({"axil": 1, "name": "small", "views": views, "nodes": nodes, "stems": [{"id": 1, "nodes": [1, 2]}], **more})
+
+
+class Building(Case):
+    def built(self, **more):
+        """-> the report of the small project's build"""
+        status, _, err = axil("build", self.write("p.axil", small_project(**more)), "-o", self.folder / "out", "--frames", 2)
+        self.assertEqual(status, 0, err)
+        report = json.loads((self.folder / "out/report.json").read_text())
+        for note in report["notes"]:
+            self.assertIn(note, err)
+        return report
+
+    def test_the_grammar_of_a_single_segment_is_silent(self):
+        self.built()
+        self.assertEqual(axil("check", self.folder / "out/initial.simeco"), (0, "", ""))
+
+    def test_what_is_not_known_is_noted(self):
+        notes = "\n".join(self.built(unit="inch", leaves=[{"stem": 1, "nodes": 2, "arrangement": "opposite", "shape": "squarish"}])["notes"])
+        self.assertIn("'inch'", notes)
+        self.assertIn('"squarish"', notes)
+        self.assertNotIn("unit", "\n".join(self.built(unit="cm")["notes"]))
+
+    def test_a_build_that_is_stopped_leaves_nothing(self):
+        for stop in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with self.subTest(stop=stop.name):
+                out = self.folder / stop.name
+                out.mkdir()
+                running = subprocess.Popen([AXIL, "build", ASPEN, "-o", out / "plant", "--frames", "1000"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                while running.poll() is None and not list(out.iterdir()):
+                    time.sleep(0.01)
+                running.send_signal(stop)
+                running.communicate(timeout=120)
+                self.assertEqual(running.returncode, 1)
+                self.assertEqual(list(out.iterdir()), [])
+
+
 class Grammars(Case):
     def test_a_good_grammar_is_silent(self):
         self.assertEqual(axil("check", self.write("g.simeco", GRAMMAR)), (0, "", ""))
@@ -259,6 +309,24 @@ class Grammars(Case):
     def test_division_by_zero(self):
         text = GRAMMAR.replace("1.0 \"g\"", "1.1 \"g\"").replace("A(0) -> S(1) A(1);", "A(i) -> S(1) B(1/i);")
         self.refused("derive", self.write("g.simeco", text), says="error")
+
+    def test_constants_that_are_no_number(self):
+        for argument in ("log(0)", "1e200*1e200"):
+            text = GRAMMAR.replace("1.0 \"g\"", "1.1 \"g\"").replace("A(0) -> S(1) A(1);", f"A(0) -> S({argument});")
+            self.refused("derive", self.write("g.simeco", text), says=["not a finite number", "A(0)"])
+
+    def test_one_plant_of_several(self):
+        body = GRAMMAR[GRAMMAR.index("    Plant"):GRAMMAR.rindex("}")]
+        second = body.replace('"p"', '"榕"').replace("A(0) -> S(1) A(1);", "A(0) -> S(2);").replace("vector(0.000000, 1.000000", "vector(1.000000, 1.000000")
+        path = self.write("g.simeco", GRAMMAR[:GRAMMAR.rindex("}")] + second + "}\n")
+        status, out, err = axil("derive", path)
+        self.assertEqual((status, out.count("S(1)")), (0, 1))
+        self.assertIn("--plant", err)
+        self.assertEqual(axil("derive", path, "--plant", "榕")[:2], (0, "S(2)\n"))
+        self.refused("derive", path, "--plant", "oak", says=["oak", "榕"])
+        self.refused("grow", path, "--plant", "oak", "-o", self.folder / "x.json", says=["oak", "榕"])
+        self.assertEqual(axil("grow", path, "--plant", "榕", "-o", self.folder / "x.json")[0], 0)
+        self.assertEqual(len(json.loads((self.folder / "x.json").read_text())["nodes"]), 2)
 
     def test_growth_without_end_names_its_rule(self):
         text = GRAMMAR.replace("A(0) -> S(1) A(1);", "A(0) -> A(0) [A(0)] A(0);")
