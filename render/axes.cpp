@@ -55,7 +55,7 @@ std::optional<double> continuationScore(const Standing& standing, const Organ& p
                                         Continuation continuation, double negligible) {
   if ((parent.kind == OrganKind::Root) != (child.kind == OrganKind::Root)) return std::nullopt;
   if (glm::distance(parent.tip().at, child.base.at) > 100 * negligible) return std::nullopt;
-  const double straightness = glm::dot(parent.direction.unit(), child.direction.unit());
+  const double straightness = glm::dot(parent.tipDirection().unit(), child.direction.unit());
   if (!standing.branch) return 4 + straightness;
   if (continuation == Continuation::Brackets || straightness < straightEnough) return std::nullopt;
   return straightness;
@@ -91,6 +91,7 @@ double extentOf(const Plant& plant) {
   for (const Organ& organ : plant.organs) {
     bounds.add(organ.base.at);
     bounds.add(organ.tip().at);
+    for (const PlantPoint& point : organ.trail) bounds.add(point.at);
   }
   return bounds.empty() ? 0 : glm::length(bounds.size());
 }

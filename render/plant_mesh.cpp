@@ -26,6 +26,8 @@ using simeco::Plant;
 
 /// A stem without a radius is this share of its length thick; no stem is thinner than the second share of the plant.
 constexpr double radiusOfLength = 0.02, thinnestOfExtent = 2e-4;
+/// Corners of a bent organ nearer to each other than this share of its length are drawn as one.
+constexpr double shortestTrailPiece = 1e-4;
 /// A stem ends this much thinner than its last segment is, when nothing sits on its tip, and when something does.
 constexpr double freeTipTaper = 0.55, loadedTipTaper = 0.85;
 
@@ -140,8 +142,9 @@ class StemDrawer {
     path.segments.reserve(count);
     for (std::size_t k = 0; k <= count; ++k) path.nodes[k] = nodeAt(axis, k, loaded_[index] ? loadedTipTaper : freeTipTaper);
     for (const OrganId id : axis.organs) path.segments.push_back({.organ = id, .material = lookOf(plant_.at(id)).material});
-    if (axis.insertion) path.collar.parentRadius = radii_[static_cast<std::size_t>(axis.insertion->axis.value)][static_cast<std::size_t>(axis.insertion->node)];
     for (const TubeNode& node : path.nodes) radii_[index].push_back(node.radius);
+    addTrails(path, axis);
+    if (axis.insertion) path.collar.parentRadius = radii_[static_cast<std::size_t>(axis.insertion->axis.value)][static_cast<std::size_t>(axis.insertion->node)];
     return path;
   }
 
@@ -161,6 +164,27 @@ class StemDrawer {
     return {.at = k == 0 ? before.base.at : before.tip().at,
             .radius = taper * 0.5 * (radiusOf(before, scale_) + radiusOf(after, scale_)),
             .colour = (colourOf(before) + colourOf(after)) * 0.5f};
+  }
+
+  /// Puts the corners of bent organs between their nodes; radius and colour run on along the trail.
+  void addTrails(TubePath& path, const Axis& axis) const {
+    if (std::none_of(axis.organs.begin(), axis.organs.end(), [&](OrganId id) { return !plant_.at(id).trail.empty(); })) return;
+    TubePath bent{.nodes = {path.nodes.front()}, .segments = {}, .collar = path.collar};
+    for (std::size_t k = 0; k < axis.organs.size(); ++k) {
+      const Organ& organ = plant_.at(axis.organs[k]);
+      const TubeNode &from = path.nodes[k], &to = path.nodes[k + 1];
+      double along = 0;
+      for (std::size_t i = 1; i + 1 < organ.trail.size(); ++i) {
+        along += glm::distance(organ.trail[i - 1].at, organ.trail[i].at);
+        const double share = along / organ.length, shortest = organ.length * shortestTrailPiece;
+        if (glm::distance(bent.nodes.back().at, organ.trail[i].at) <= shortest || glm::distance(organ.trail[i].at, to.at) <= shortest) continue;
+        bent.nodes.push_back({.at = organ.trail[i].at, .radius = glm::mix(from.radius, to.radius, share), .colour = glm::mix(from.colour, to.colour, static_cast<float>(share))});
+        bent.segments.push_back(path.segments[k]);
+      }
+      bent.nodes.push_back(to);
+      bent.segments.push_back(path.segments[k]);
+    }
+    path = std::move(bent);
   }
 
   const Plant& plant_;
@@ -273,7 +297,9 @@ Placement placementOf(const Organ& organ, OrganId id, const ModelSlot& slot) {
   const glm::dvec3 y = organ.direction.unit();
   const glm::dvec3 z = organ.adaxial.unit();
   const glm::dvec3 x = glm::cross(y, z);
-  const double across = organ.radius > 0 ? 2 * organ.radius / slot.naturalWidth : organ.length;
+  // A bud is a sixth as wide as what it opens to; what withers shrivels.
+  const double spread = (1 + 5 * organ.opening) / 6 * (1 - 0.4 * organ.withered);
+  const double across = (organ.radius > 0 ? 2 * organ.radius / slot.naturalWidth : organ.length) * spread;
   const double through = organ.kind == OrganKind::Leaf ? std::sqrt(across * organ.length) : across;
   return {.organ = id, .position = glm::vec3(organ.base.at), .rotation = glm::quat(glm::normalize(glm::quat_cast(glm::dmat3(x, y, z)))),
           .scale = glm::vec3(across, organ.length, through)};

@@ -33,7 +33,13 @@ class SkeletonMaker {
     Stem stem{.id = stemIdOf(id), .parent = std::nullopt, .nodes = {*start}};
     if (axis.insertion) stem.parent = stemIdOf(axis.insertion->axis);
     else if (!skeleton_.stems.empty()) stem.parent = skeleton_.stems.front().id;
-    for (const OrganId organ : axis.organs) stem.nodes.push_back(addNode(plant_.at(organ).tip(), plant_.at(organ).radius));
+    std::vector<NodeId>& tips = nodesOfSites_.emplace_back(1, *start);
+    for (const OrganId at : axis.organs) {
+      const Organ& organ = plant_.at(at);
+      for (std::size_t i = 1; i + 1 < organ.trail.size(); ++i) stem.nodes.push_back(addNode(organ.trail[i], organ.radius));
+      stem.nodes.push_back(addNode(organ.tip(), organ.radius));
+      tips.push_back(stem.nodes.back());
+    }
     skeleton_.stems.push_back(std::move(stem));
     return true;
   }
@@ -71,7 +77,7 @@ class SkeletonMaker {
   /// The node a stem begins with: its parent's, or the root, which the first stem makes.
   [[nodiscard]] std::optional<NodeId> startOf(const Axis& axis) {
     if (axis.insertion)
-      return skeleton_.stems[static_cast<std::size_t>(axis.insertion->axis.value)].nodes[static_cast<std::size_t>(axis.insertion->node)];
+      return nodesOfSites_[static_cast<std::size_t>(axis.insertion->axis.value)][static_cast<std::size_t>(axis.insertion->node)];
     const Organ& first = plant_.at(axis.organs.front());
     if (skeleton_.stems.empty()) return skeleton_.root = addNode(first.base, first.radius);
     const glm::dvec3 root = skeleton_.nodes.front().position.at;
@@ -82,6 +88,7 @@ class SkeletonMaker {
   const Plant& plant_;
   const PlantAxes& axes_;
   Skeleton skeleton_;
+  std::vector<std::vector<NodeId>> nodesOfSites_;  ///< of each axis, node by node; the corners of bent organs stand between them
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ struct OrganStyle {
   friend bool operator==(const OrganStyle&, const OrganStyle&) = default;
 };
 
-/// A body: it runs from `base` along `direction` for `length`.
+/// A body: it runs from `base` along `direction` for `length`, or along its trail where the environment bent it.
 struct Organ {
   OrganKind kind = OrganKind::Stem;
   std::int32_t style = 0;                ///< index into Plant::styles
@@ -48,7 +48,15 @@ struct Organ {
   std::int32_t production = -1;          ///< rule that made it, in text order over all plants; -1: the axiom
   std::int64_t module = -1;              ///< which module of the string it is; -1: a body that stayed behind when it was rewritten
 
-  [[nodiscard]] PlantPoint tip() const { return {base.at + direction.unit() * length}; }
+  std::vector<PlantPoint> trail = {};    ///< base to tip of a bent body, `length` long along it; empty: straight
+  double opening = 1;                    ///< how far a blade, flower or bud has unfolded, 0 to 1
+  double withered = 0;                   ///< 0 fresh, 1 withered
+
+  [[nodiscard]] PlantPoint tip() const { return trail.empty() ? PlantPoint{base.at + direction.unit() * length} : trail.back(); }
+  /// Where the body points at its tip.
+  [[nodiscard]] PlantDirection tipDirection() const {
+    return trail.empty() ? direction : PlantDirection::along(trail.back().at - trail[trail.size() - 2].at);
+  }
   friend bool operator==(const Organ&, const Organ&) = default;
 };
 

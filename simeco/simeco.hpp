@@ -12,6 +12,7 @@
 #include "simeco/lsystem_text.hpp"      // a string as classic programs write it
 #include "simeco/derive.hpp"            // a grammar's string, step by step
 #include "simeco/plant.hpp"             // a plant at one moment: organs with frames, sizes, ages
+#include "simeco/environment.hpp"       // what surrounds plants while they grow
 #include "simeco/growth.hpp"            // a grammar grown over continuous time
 #include "simeco/lsystem_view.hpp"      // what an L-system's turtle starts with
 #include "simeco/lsystem_turtle.hpp"    // a string drawn into a sink

@@ -4,8 +4,6 @@ namespace axil::simeco {
 
 namespace {
 
-constexpr std::string_view kNotYet = "growth does not act on it yet";
-
 constexpr AttributeWord kAttributes[] = {
     // The whole ecosystem; a plant may say its own.
     {"SoilPH", InEcosystem | InPlant, ValueKind::Number, false, {}},
@@ -14,6 +12,15 @@ constexpr AttributeWord kAttributes[] = {
     {"SoilPHWidth", InEcosystem | InPlant, ValueKind::Positive, true, {}},
     {"RainRateWidth", InEcosystem | InPlant, ValueKind::Positive, true, {}},
     {"DayLightWidth", InEcosystem | InPlant, ValueKind::Positive, true, {}},
+    {"Temperature", InEcosystem | InPlant, ValueKind::Number, true, {}},
+    {"TemperatureWidth", InEcosystem | InPlant, ValueKind::Positive, true, {}},
+    {"SoilPHBest", InEcosystem | InPlant, ValueKind::Number, true, {}},
+    {"RainRateBest", InEcosystem | InPlant, ValueKind::Number, true, {}},
+    {"DayLightBest", InEcosystem | InPlant, ValueKind::Number, true, {}},
+    {"TemperatureBest", InEcosystem | InPlant, ValueKind::Number, true, {}},
+    {"Light", InEcosystem | InPlant, ValueKind::Vector, true, {}},
+    {"Gravity", InEcosystem | InPlant, ValueKind::Vector, true, {}},
+    {"Wind", InEcosystem | InPlant, ValueKind::Vector, true, {}},
     // A plant.
     {"Position", InPlant, ValueKind::Vector, false, {}},
     {"Direction", InPlant, ValueKind::Vector, false, {}},
@@ -29,7 +36,20 @@ constexpr AttributeWord kAttributes[] = {
     {"ColorBack", InOrgan, ValueKind::Colour, false, {}},
     {"MaterialFront", InOrgan, ValueKind::Material, false, {}},
     {"MaterialBack", InOrgan, ValueKind::Material, false, {}},
-    {"Tropism", InPlant | InOrgan, ValueKind::Vector, true, kNotYet},
+    // How organs bend.
+    {"Tropism", InPlant | InOrgan, ValueKind::Vector, true, {}},
+    {"GravityTropism", InPlant | InOrgan, ValueKind::Number, true, {}},
+    {"LightTropism", InPlant | InOrgan, ValueKind::Number, true, {}},
+    {"WindTropism", InPlant | InOrgan, ValueKind::Number, true, {}},
+    {"Elasticity", InPlant | InOrgan, ValueKind::NotNegative, true, {}},
+    {"LightResponse", InPlant | InOrgan, ValueKind::NotNegative, true, {}},
+    // How they age.
+    {"BroadenTime", InOrgan, ValueKind::NotNegative, true, {}},
+    {"UnfoldTime", InOrgan, ValueKind::NotNegative, true, {}},
+    {"WitherAge", InOrgan, ValueKind::NotNegative, true, {}},
+    {"WitherTime", InOrgan, ValueKind::NotNegative, true, {}},
+    {"WitherColor", InOrgan, ValueKind::Colour, true, {}},
+    {"FallAge", InOrgan, ValueKind::NotNegative, true, {}},
 };
 
 constexpr FunctionWord kFunctions[] = {
