@@ -30,6 +30,21 @@ std::string blankLike(std::string_view text) {
   return blank;
 }
 
+/// The last place up to `at` where a character begins.
+std::size_t characterAt(std::string_view text, std::size_t at) {
+  while (at > 0 && at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0u) == 0x80u) --at;
+  return std::min(at, text.size());
+}
+
+/// What is shown of the line around a span: all of it, or so much that a terminal can hold it.
+struct Excerpt {
+  std::size_t begin = 0, end = 0;
+};
+Excerpt excerptOf(std::string_view line, std::size_t at) {
+  constexpr std::size_t before = 100, after = 140;  // bytes
+  return {at > before ? characterAt(line, at - before) : 0, line.size() - at > after ? characterAt(line, at + after) : line.size()};
+}
+
 }  // namespace
 
 SourcePlace placeOf(std::string_view text, std::uint32_t offset) {
@@ -59,8 +74,11 @@ std::string formatWithCaret(const Diagnostic& diagnostic, std::string_view text,
   const std::string_view line = lineAt(text, start);
   const std::size_t from = std::min(begin - start, line.size());
   const std::size_t to = std::clamp<std::size_t>(diagnostic.span.end > begin ? diagnostic.span.end - start : from, from, line.size());
-  const std::size_t width = std::max<std::size_t>(1, blankLike(line.substr(from, to - from)).size());
-  return formatDiagnostic(diagnostic, text, fileName) + "\n  " + std::string(line) + "\n  " + blankLike(line.substr(0, from)) + std::string(width, '^');
+  const Excerpt shown = excerptOf(line, from);
+  const std::string left = shown.begin > 0 ? "..." : "", right = shown.end < line.size() ? "..." : "";
+  const std::size_t width = std::max<std::size_t>(1, blankLike(line.substr(from, std::min(to, shown.end) - from)).size());
+  return formatDiagnostic(diagnostic, text, fileName) + "\n  " + left + std::string(line.substr(shown.begin, shown.end - shown.begin)) + right + "\n  " +
+         blankLike(left) + blankLike(line.substr(shown.begin, from - shown.begin)) + std::string(width, '^');
 }
 
 }  // namespace axil

@@ -40,7 +40,7 @@ struct Diagnostic {
 
 /// `FILE:LINE:COL: error: message (hint)`: one line.
 [[nodiscard]] std::string formatDiagnostic(const Diagnostic& diagnostic, std::string_view text, std::string_view fileName);
-/// The same, followed by the source line and a caret line under the span.
+/// The same, followed by the source line and a caret line under the span; of a long line only what is near the span.
 [[nodiscard]] std::string formatWithCaret(const Diagnostic& diagnostic, std::string_view text, std::string_view fileName);
 
 }  // namespace axil
