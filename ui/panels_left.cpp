@@ -330,6 +330,7 @@ Taken stemsPanel(const Panel& panel) {
     gap(panel, 6);
     heading(panel, "to_do");
     const Error& trouble = *panel.following.skeleton.trouble;
+    panel.state.shownTroubles = std::max<std::size_t>(trouble.details.size(), 1);
     if (trouble.details.empty()) say(panel, NoticeKind::Warned, trouble.message);
     for (std::size_t i = 0; i < std::min<std::size_t>(trouble.details.size(), 6); ++i) say(panel, NoticeKind::Warned, trouble.details[i]);
     if (trouble.details.size() > 6) quiet(panel, filled(panel.t("and_more"), {{"n", std::to_string(trouble.details.size() - 6)}}));

@@ -49,8 +49,10 @@ void drawSkeleton(const View3d& view) {
     }
   }
   if (!view.panel.state.selection.node) return;
-  if (const skeleton3d::Node* node = nodeWith(*shown.good, *view.panel.state.selection.node))
-    view.list.AddCircle(view.onScreen(node->position), view.panel.px(8), view.panel.palette.text, 24, view.panel.px(2));
+  if (const skeleton3d::Node* node = nodeWith(*shown.good, *view.panel.state.selection.node)) {
+    view.list.AddCircle(view.onScreen(node->position), view.panel.px(8), rgb(0x000000, 170), 24, view.panel.px(4));
+    view.list.AddCircle(view.onScreen(node->position), view.panel.px(8), rgb(0xFFFFFF), 24, view.panel.px(2));
+  }
 }
 
 void pick(const View3d& view) {

@@ -169,6 +169,7 @@ std::vector<Step> shell(const Panel& panel) {
   panel.state.hover.reset();
   panel.state.status.clear();
   panel.state.landmarks.clear();
+  panel.state.shownTroubles = 0;
   panel.state.plantPaneSize = {0, 0};
   ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, screen, p.ground);
   part(panel, "##bar", barArea, p.panel, 0, steps, [&] { return topBar(panel, barArea), Taken{}; });
