@@ -249,6 +249,7 @@ Taken photosPanel(const Panel& panel) {
     const document::ProjectView* view = panes[i] < 0 ? nullptr : &panel.project.views[static_cast<std::size_t>(panes[i])];
     const std::string name = view != nullptr ? view->view.name : kNames[i];
     const std::string key = "view_" + name;
+    ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(panel.texts.has(key) ? panel.t(key) : name.c_str());
     ImGui::SameLine(panel.px(80));
     const std::string file = view == nullptr || view->photo.empty() ? panel.t("choose_photo") : std::filesystem::path(view->photo).filename().string();

@@ -223,7 +223,7 @@ void shortcutsSheet(const Panel& panel) {
   static constexpr std::array<std::pair<const char*, const char*>, 17> kRows = {{{"Ctrl+O", "key_open"}, {"Ctrl+S", "key_save"}, {"Ctrl+Shift+S", "key_save_as"}, {"Ctrl+Z", "key_undo"},
       {"Ctrl+Shift+Z", "key_redo"}, {"Ctrl+H", "key_history"}, {"1 2 3 4", "key_panes"}, {"F", "key_fit"}, {"L", "key_loupe"}, {"P", "key_play"}, {"Esc", "key_escape"}, {"Delete", "key_delete"},
       {"Shift + click", "key_shift"}, {"wheel", "key_wheel"}, {"middle drag, Space + drag", "key_pan"}, {"drag", "key_drag"}, {"? F1", "key_help"}}};
-  if (beginSheet(panel, "##shortcuts", {panel.px(560), panel.px(600)})) {
+  if (beginSheet(panel, "##shortcuts", {panel.px(560), panel.px(484)})) {
     heading(panel, "shortcuts");
     for (const auto& [keys, key] : kRows) {
       ImGui::PushStyleColor(ImGuiCol_Text, panel.palette.accent);
