@@ -47,19 +47,20 @@ ClickMeaning place(const Project& project, NodeId node, const PhotoClick& click)
 
 ClickMeaning grow(const Project& project, NodeId node, const PhotoClick& click) {
   const NodeId added = document::nextNodeId(project);
-  const Step begin = {document::AddNode{added, click.view, click.at}};
-  Step step = begin;
+  Step step;
+  step.reserve(3);
+  step.emplace_back(document::AddNode{added, click.view, click.at});
   if (const auto stem = growingStem(project, node)) {
-    step.push_back(document::AppendNode{*stem, added});
+    step.emplace_back(document::AppendNode{*stem, added});
     return {ClickKind::Extend, step, {added}, node, stem};
   }
   const StemId stem = document::nextStemId(project);
   if (document::stemThrough(project, node) || !document::stemsFrom(project, node).empty()) {
-    step.push_back(document::StartBranch{stem, node});
-    step.push_back(document::AppendNode{stem, added});
+    step.emplace_back(document::StartBranch{stem, node});
+    step.emplace_back(document::AppendNode{stem, added});
     return {ClickKind::Branch, step, {added}, node, stem};
   }
-  step.push_back(document::AddStem{stem, {node, added}});
+  step.emplace_back(document::AddStem{stem, {node, added}});
   return {ClickKind::Extend, step, {added}, node, stem};
 }
 
