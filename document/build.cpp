@@ -95,8 +95,8 @@ Result<simeco::Plant> nextOf(const std::map<GrammarKind, Grammar>& grammars, con
   return simeco::plantAt(*growth, simeco::completeTime(*growth));
 }
 
-Result<void> writePicture(Output& output, const char* name, const render::PlantMesh& mesh, const skeleton3d::Camera& camera, const BuildOptions& options) {
-  const auto image = render::drawPlant(mesh, {.width_px = options.width, .height_px = options.height, .view = camera});
+Result<void> writePicture(Output& output, const char* name, const render::PlantMesh& mesh, const render::PictureOptions& look) {
+  const auto image = render::drawPlant(mesh, look);
   if (!image) return image.failure();
   const auto bytes = render::pngBytes(*image);
   if (!bytes) return bytes.failure();
@@ -104,13 +104,13 @@ Result<void> writePicture(Output& output, const char* name, const render::PlantM
 }
 
 /// The growth as pictures, and as a video where one is wanted.
-Result<void> writeGrowth(Output& output, const Growth& growth, const skeleton3d::Camera& camera, const BuildOptions& options) {
+Result<void> writeGrowth(Output& output, const Growth& growth, const render::PictureOptions& look, const BuildOptions& options) {
   constexpr int kVideoFrames = 96;
   const auto at = [&growth](double time) { return simeco::plantAt(growth, time); };
   // The first picture shows something already: nothing has grown at time 0.
   const double end = simeco::completeTime(growth);
   render::AnimationOptions animation{.from = end / options.frames, .to = end, .frames = options.frames};
-  animation.picture = {.width_px = options.width, .height_px = options.height, .view = camera};
+  animation.picture = look;
   const fs::path folder = output.staging.path();
   if (auto written = render::writeAnimation(folder / "growth", at, animation, options.chain.watch); !written) return written;
   for (const auto& entry : fs::directory_iterator(folder / "growth")) output.files.push_back("growth/" + entry.path().filename().string());
@@ -138,13 +138,13 @@ std::string reportText(const BuildReport& report) {
   return jsonLines(json);
 }
 
-/// The measured plant and what it grows into, seen by one camera, so that all pictures can be laid over each other.
+/// The measured plant and what it grows into, seen by one camera over one floor, so that all pictures can be laid over each other.
 struct Grown {
   Growth growth;
   simeco::Plant plant;
   render::PlantMesh mesh;
   render::PlantMesh next;
-  skeleton3d::Camera camera;
+  render::PictureOptions look;
 };
 
 Result<Grown> grow(const std::map<GrammarKind, Grammar>& grammars, const Project& project, const BuildOptions& options) {
@@ -158,15 +158,17 @@ Result<Grown> grow(const std::map<GrammarKind, Grammar>& grammars, const Project
   if (!mesh) return mesh.failure();
   auto nextMesh = render::meshOf(*next);
   if (!nextMesh) return nextMesh.failure();
-  const auto camera = render::cameraFitting(*nextMesh, render::ViewPreset::ThreeQuarter, options.width, options.height);
-  return Grown{*growth, std::move(*plant), std::move(*mesh), std::move(*nextMesh), camera};
+  const render::PictureOptions look{.width_px = options.width, .height_px = options.height,
+                                    .view = render::cameraFitting(*nextMesh, render::ViewPreset::ThreeQuarter, options.width, options.height),
+                                    .floorHeight = render::floorUnder(*nextMesh)};
+  return Grown{*growth, std::move(*plant), std::move(*mesh), std::move(*nextMesh), look};
 }
 
 Result<void> draw(Output& output, const Grown& grown, const BuildOptions& options) {
-  if (auto written = writePicture(output, "plant.png", grown.mesh, grown.camera, options); !written) return written;
+  if (auto written = writePicture(output, "plant.png", grown.mesh, grown.look); !written) return written;
   if (output.has("predictive.simeco"))
-    if (auto written = writePicture(output, "predicted.png", grown.next, grown.camera, options); !written) return written;
-  return writeGrowth(output, grown.growth, grown.camera, options);
+    if (auto written = writePicture(output, "predicted.png", grown.next, grown.look); !written) return written;
+  return writeGrowth(output, grown.growth, grown.look, options);
 }
 
 Result<void> writeMesh(Output& output, const render::PlantMesh& mesh, const std::string& unit) {

@@ -39,16 +39,17 @@ double timeOf(const AnimationOptions& options, int frame) {
   return options.from + (options.to - options.from) * frame / (options.frames - 1);
 }
 
-/// The picture options of every frame: the camera of the grown plant.
+/// The picture options of every frame: the camera and the floor of the grown plant.
 Result<PictureOptions> steadyPicture(const GrowthAt& growthAt, const AnimationOptions& options) {
   PictureOptions picture = options.picture;
   const auto* preset = std::get_if<ViewPreset>(&picture.view);
-  if (preset == nullptr) return picture;
+  if (preset == nullptr && picture.floorHeight) return picture;
   const auto plant = growthAt(options.to);
   if (!plant) return plant.failure();
   const auto mesh = meshOf(*plant);
   if (!mesh) return mesh.failure();
-  picture.view = cameraFitting(*mesh, *preset, picture.width_px, picture.height_px);
+  if (!picture.floorHeight) picture.floorHeight = floorUnder(*mesh);
+  if (preset != nullptr) picture.view = cameraFitting(*mesh, *preset, picture.width_px, picture.height_px);
   return picture;
 }
 

@@ -225,13 +225,22 @@ Result<Painter> Painter::open() {
   return Painter(std::make_unique<Inside>(std::move(window).value()));
 }
 
+double floorUnder(const PlantMesh& mesh) {
+  constexpr double kStands = 0.05;
+  const Bounds bounds = boundsOf(mesh);
+  const double collar = mesh.collar.at.y;
+  if (bounds.empty()) return collar;
+  const glm::dvec3 size = bounds.size();
+  return collar - bounds.low.y > kStands * std::max({size.x, size.y, size.z}) ? bounds.low.y : collar;
+}
+
 Result<Image> Painter::draw(const PlantMesh& mesh, const PictureOptions& options) {
   if (const auto checked = checkSize(options); !checked) return checked.failure();
   const auto camera = cameraOf(mesh, options);
   if (!camera) return camera.failure();
 
   const bool onGround = options.ground == Ground::Shadow;
-  const double floorHeight = mesh.collar.at.y;
+  const double floorHeight = options.floorHeight.value_or(floorUnder(mesh));
   const FlatMesh flat = flattened(mesh, Tint::Natural);
   const Daylight daylight = daylightOn(flat, {.groundHeight = floorHeight, .ground = onGround ? GroundLight::Shaded : GroundLight::None});
   const bool looksDown = skeleton3d::rayThrough(*camera, {camera->centre_px}).origin.at.y > floorHeight;

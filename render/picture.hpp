@@ -13,6 +13,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <variant>
 
 namespace axil::render {
@@ -26,7 +27,7 @@ struct StudioBackground {
 };
 using Background = std::variant<StudioBackground, glm::vec3>;
 
-/// Shadow: the plant stands on a floor that it shades, and what is below it is hidden. None: it stands nowhere, roots show.
+/// Shadow: the plant stands on a floor that it shades, and what is below it is hidden. None: it stands nowhere.
 enum class Ground { Shadow, None };
 
 /// Quick: four samples a pixel. Fine: sixteen at the edges, for a picture that is looked at for long; half as slow again.
@@ -38,8 +39,13 @@ struct PictureOptions {
   std::variant<ViewPreset, skeleton3d::Camera> view = ViewPreset::ThreeQuarter;
   Background background = StudioBackground{};
   Ground ground = Ground::Shadow;
+  std::optional<double> floorHeight = std::nullopt;  ///< none: floorUnder(mesh)
   Smoothing smoothing = Smoothing::Quick;
 };
+
+/// Where the floor is: at the collar's height of a plant that stands on it; at the lowest point of one that hangs, creeps down or
+/// shows its roots, which is one that reaches below its collar by more than a twentieth of its extent.
+[[nodiscard]] double floorUnder(const PlantMesh& mesh);
 
 /// The largest picture: both sides together are kept to this many pixels.
 inline constexpr std::int64_t maximumPixels = 100'000'000;

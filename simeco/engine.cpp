@@ -244,6 +244,8 @@ std::int64_t Engine::stepLimit(const std::optional<std::int64_t>& count) const {
   return count ? limits.steps : std::min(limits.steps, limits.settlingSteps);
 }
 
+Failure Engine::tooManyBytes() const { return state_->tooMany("bytes", state_->options.limits.bytes, nullptr); }
+
 Failure Engine::tooManySteps(const std::optional<std::int64_t>& count) const {
   const std::string limit = std::to_string(stepLimit(count)) + " steps";
   return state_->limitReached(count ? "the derivation is limited to " + limit : "the string still changes after " + limit + ", and no number of steps was given", nullptr);

@@ -60,6 +60,7 @@ class Engine {
   /// The error for a derivation that needs more steps than its limit, with the rule that was growing.
   /// The limit on steps in force: of a stated number of steps, or of steps until nothing changes.
   [[nodiscard]] std::int64_t stepLimit(const std::optional<std::int64_t>& count) const;
+  [[nodiscard]] Failure tooManyBytes() const;
   [[nodiscard]] Failure tooManySteps(const std::optional<std::int64_t>& count) const;
   /// The homomorphism of `string`, which must be one that this engine made.
   [[nodiscard]] Result<Image> imageOf(const ModuleString& string) const;

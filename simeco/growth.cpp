@@ -77,6 +77,12 @@ class Recorder {
     return {};
   }
 
+  /// About what the history takes in memory; counted as it grows, since walking over it would cost as much as a step.
+  [[nodiscard]] std::size_t bytes() const {
+    constexpr std::size_t kAllocations = 2 * 32;  // what the two lists of a body cost beside their entries
+    return bodies_.size() * (sizeof(Body) + kAllocations) + entries_ * sizeof(Placement) + pieces_.size() * sizeof(Piece);
+  }
+
   /// All bodies in the order in which they stand, ids renumbered to it.
   [[nodiscard]] std::vector<Body> takeBodies() {
     std::vector<std::int32_t> rank(bodies_.size(), -1);
@@ -163,7 +169,9 @@ class Recorder {
 
   void nowModule(std::int32_t body, std::size_t module) {
     auto& modules = bodies_[static_cast<std::size_t>(body)].modules;
-    if (modules.back().second != static_cast<std::int64_t>(module)) modules.emplace_back(engine_.stepsDone(), static_cast<std::int64_t>(module));
+    if (modules.back().second == static_cast<std::int64_t>(module)) return;
+    modules.emplace_back(engine_.stepsDone(), static_cast<std::int64_t>(module));
+    ++entries_;
   }
   void cutOff(std::int32_t body) {
     std::int64_t& gone = bodies_[static_cast<std::size_t>(body)].gone;
@@ -211,7 +219,10 @@ class Recorder {
     if (body.gone != never) return;
     const Placement now{engine_.stepsDone(), turtle.parent, turtle.branch, turtle.turn};
     const auto same = [&](const Placement& p) { return p.parent == now.parent && p.branch == now.branch && p.turn.rotr == now.turn.rotr && p.turn.rotu == now.turn.rotu; };
-    if (body.placements.empty() || !same(body.placements.back())) body.placements.push_back(now);
+    if (body.placements.empty() || !same(body.placements.back())) {
+      body.placements.push_back(now);
+      ++entries_;
+    }
     turtle = {id, false, {}};
   }
 
@@ -222,6 +233,7 @@ class Recorder {
   std::vector<SymbolRole> roles_;
   std::vector<Piece> pieces_;
   std::vector<Body> bodies_;
+  std::size_t entries_ = 0;  ///< of all placements and modules of the bodies
   std::vector<Habit> habits_;
   std::map<std::int32_t, std::int32_t> fixedHabits_;  ///< of the stages whose organs share one, by style
 };
@@ -297,6 +309,7 @@ Result<PlantHistory> recordPlant(const Grammar& grammar, std::size_t index, std:
     history->settled = *outcome == Engine::Outcome::Settled;
     if (history->settled) break;
     if (auto done = recorder.step(trace); !done) return done.failure();
+    if (recorder.bytes() > options.limits.bytes) return (*engine)->tooManyBytes();
     options.watch.report("growing", count ? static_cast<double>((*engine)->stepsDone()) / static_cast<double>(*count) : 0.5);
   }
   history->steps = (*engine)->stepsDone();

@@ -170,10 +170,21 @@ TEST(Picture, ThePlantDarkensTheGroundAndTheGroundHidesWhatIsBelow) {
   make.first({0, 0, 0}, {0.2, -1, 0.2}, 0.3, 0.02, root);
   const PlantMesh roots = *meshOf(make.plant);
   Camera above = cameraFitting(*meshOf(test::straightStem(1, 0.3, 0.02)), ViewPreset::ThreeQuarter, 300, 400);
-  const auto hidden = drawPlant(roots, {.width_px = 300, .height_px = 400, .view = above, .background = glm::vec3(1), .ground = Ground::Shadow});
+  const auto hidden = drawPlant(roots, {.width_px = 300, .height_px = 400, .view = above, .background = glm::vec3(1), .ground = Ground::Shadow, .floorHeight = 0.0});
   const auto shown = drawPlant(roots, {.width_px = 300, .height_px = 400, .view = above, .background = glm::vec3(1), .ground = Ground::None});
   const auto ink = [](const Image& image) { return std::count_if(image.rgb.begin(), image.rgb.end(), [](std::uint8_t v) { return v < 120; }); };
   EXPECT_GT(ink(*shown), 4 * ink(*hidden));
+}
+
+TEST(Picture, TheFloorIsUnderWhatHangsAndAtTheCollarOfWhatStands) {
+  const PlantMesh standing = *meshOf(test::straightStem(1, 0.3, 0.02));
+  EXPECT_EQ(floorUnder(standing), standing.collar.at.y);
+  test::PlantMaker make;
+  make.first({0, 0, 0}, {0.2, -1, 0.2}, 0.3, 0.02, make.style(simeco::OrganKind::Root));
+  const PlantMesh roots = *meshOf(make.plant);
+  EXPECT_NEAR(floorUnder(roots), boundsOf(roots).low.y, 1e-9);
+  EXPECT_LT(floorUnder(roots), -0.2);
+  EXPECT_EQ(floorUnder(PlantMesh{}), 0);
 }
 
 TEST(Picture, APlantOfNothingShowsTheRoom) {
