@@ -83,8 +83,8 @@ constexpr int kFewestSteps = 8, kMostSteps = 32;
 constexpr double kStepsAPull = 8;
 /// A withered blade hangs: as if this much more gravity had pulled at it.
 constexpr double kDroop = 1.5;
-/// Of an organ's full length: the room it leaves before an obstacle where it is thinner than that.
-constexpr double kLeastClearance = 1e-3;
+/// Of an organ's full length: how far it sees an obstacle, and the room it leaves before an obstacle where it is thinner than that.
+constexpr double kSight = 0.5, kLeastClearance = 1e-3;
 
 bool bendsAlong(OrganKind kind) { return kind == OrganKind::Stem || kind == OrganKind::Apex || kind == OrganKind::Root; }
 
@@ -118,7 +118,7 @@ StemFrame bend(Organ& organ, const StemFrame& frame, const GrowthData& data, con
   const Habit& habit = plant.habits[static_cast<std::size_t>(body.habit)];
   const double reach = body.rate * body.growTime;
   if (!(reach > 0) || (!plant.bends[static_cast<std::size_t>(body.habit)] && organ.withered == 0)) return frame;
-  const PathRules rules{stepsOf(habit), std::max(body.finalRadius, reach * kLeastClearance), reach};
+  const PathRules rules{stepsOf(habit), std::max(body.finalRadius, reach * kLeastClearance), reach * kSight + body.finalRadius};
   std::vector<PathStep> steps = stepsUpTo(data, plant, body, habit, organ.age, rules.steps);
   if (bendsAlong(body.kind)) {
     Path path = followPath(organ.base, frame, steps, rules);

@@ -9,7 +9,9 @@ namespace axil::simeco {
 namespace {
 
 /// How strongly an obstacle that is touched pushes, as a pull.
-constexpr double kPush = 4;
+constexpr double kPush = 12;
+/// Heading straighter at an obstacle than this sine, a tip leans to the side of its r-axis: straight on there is no way to turn.
+constexpr double kHeadOn = 0.05;
 /// Of the room that is left, the part a step may use up, so that rounding never closes it.
 constexpr double kKeep = 1 - 1e-6;
 
@@ -40,13 +42,15 @@ StemFrame pulled(const StemFrame& frame, const glm::dvec3& pull, double share) {
   return turnedFrame(frame, PlantDirection::along(glm::cross(frame.direction.unit(), goal.unit())), Angle::fromRadians(angle - left));
 }
 
-/// What an obstacle within sight adds to the pull.
-glm::dvec3 pushAt(const glm::dvec3& at, const PathStep& step, const PathRules& rules) {
+/// What an obstacle within sight adds to the pull of a tip with `frame`.
+glm::dvec3 pushAt(const glm::dvec3& at, const StemFrame& frame, const PathStep& step, const PathRules& rules) {
   if (step.obstacles == nullptr || !(rules.sight > 0)) return {0, 0, 0};
   const auto nearest = step.obstacles->nearest(at, at, rules.sight);
   if (!nearest || !(nearest->distance > 0)) return {0, 0, 0};
   const double closeness = 1 - nearest->distance / rules.sight;
-  return (at - nearest->at) * (kPush * closeness * closeness / nearest->distance);
+  glm::dvec3 away = (at - nearest->at) / nearest->distance;
+  if (glm::length(glm::cross(away, frame.direction.unit())) < kHeadOn) away += frame.rAxis.unit();
+  return away * (kPush * closeness * closeness);
 }
 
 /// Straight ways out of one point.
@@ -131,7 +135,7 @@ Path followPath(const PlantPoint& base, const StemFrame& frame, std::span<const 
   StemFrame heading = frame;
   bool stopped = false;
   for (const PathStep& step : steps) {
-    const glm::dvec3 pull = step.pull + pushAt(trail.tip(), step, rules);
+    const glm::dvec3 pull = step.pull + pushAt(trail.tip(), heading, step, rules);
     const StemFrame middle = pulled(heading, pull, stepShare / 2);
     const Ways ways(step.obstacles, trail.tip(), step.reach, rules.clearance);
     if (ways.isFree(middle.direction.unit())) {
