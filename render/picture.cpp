@@ -226,7 +226,7 @@ Result<Painter> Painter::open() {
 }
 
 double floorUnder(const PlantMesh& mesh) {
-  constexpr double kStands = 0.05;
+  constexpr double kStands = 0.1;  // a thick stem's rounded foot, a drooping leaf tip
   const Bounds bounds = boundsOf(mesh);
   const double collar = mesh.collar.at.y;
   if (bounds.empty()) return collar;

@@ -44,7 +44,7 @@ struct PictureOptions {
 };
 
 /// Where the floor is: at the collar's height of a plant that stands on it; at the lowest point of one that hangs, creeps down or
-/// shows its roots, which is one that reaches below its collar by more than a twentieth of its extent.
+/// shows its roots, which is one that reaches below its collar by more than a tenth of its extent.
 [[nodiscard]] double floorUnder(const PlantMesh& mesh);
 
 /// The largest picture: both sides together are kept to this many pixels.
