@@ -113,6 +113,18 @@ std::vector<PathStep> stepsUpTo(const GrowthData& data, const PlantHistory& plan
   return steps;
 }
 
+/// Takes away obstacles that are out of the organ's reach and sight: then no step need ask for them.
+void forgetFarObstacles(std::vector<PathStep>& steps, const glm::dvec3& base, double farthest) {
+  const ObstacleField* asked = nullptr;
+  bool near = false;
+  for (PathStep& step : steps) {
+    if (step.obstacles == nullptr) continue;
+    if (step.obstacles != asked) near = step.obstacles->nearest(base, base, farthest).has_value();
+    asked = step.obstacles;
+    if (!near) step.obstacles = nullptr;
+  }
+}
+
 /// Bends `organ`, which stands in its place as if nothing acted on it, and says with what frame it ends.
 StemFrame bend(Organ& organ, const StemFrame& frame, const GrowthData& data, const PlantHistory& plant, const Body& body) {
   const Habit& habit = plant.habits[static_cast<std::size_t>(body.habit)];
@@ -120,6 +132,7 @@ StemFrame bend(Organ& organ, const StemFrame& frame, const GrowthData& data, con
   if (!(reach > 0) || (!plant.bends[static_cast<std::size_t>(body.habit)] && organ.withered == 0)) return frame;
   const PathRules rules{stepsOf(habit), std::max(body.finalRadius, reach * kLeastClearance), reach * kSight + body.finalRadius};
   std::vector<PathStep> steps = stepsUpTo(data, plant, body, habit, organ.age, rules.steps);
+  forgetFarObstacles(steps, organ.base.at, reach + rules.sight + rules.clearance);
   if (bendsAlong(body.kind)) {
     Path path = followPath(organ.base, frame, steps, rules);
     if (path.stopped) organ.length = path.length;
