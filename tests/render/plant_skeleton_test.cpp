@@ -39,6 +39,23 @@ TEST(PlantSkeleton, HasTheStemsNodesAndLeavesOfAHandMadePlant) {
   EXPECT_LT(glm::distance(skeleton->leaves[0].position.at, {0.1, 0.1, 0}), 1e-8);
 }
 
+TEST(PlantSkeleton, ABentOrganHasNodesAlongItsTrailAndItsBranchesStartAtItsTip) {
+  test::PlantMaker make;
+  const auto style = make.style(OrganKind::Stem);
+  const OrganId bent = make.first({0, 0, 0}, {0, 1, 0}, 0.3, 0.01, style);
+  make.plant.organs[0].trail = {{{0, 0, 0}}, {{0, 0.1, 0}}, {{0.1, 0.1, 0}}, {{0.1, 0.1, 0.1}}};
+  make.on(bent, true, {1, 0, 0}, 0.1, 0.004, style);
+  make.on(bent, false, {0, 0, 1}, 0.1, 0.01, style);
+  const auto skeleton = skeletonOf(make.plant);
+  ASSERT_TRUE(skeleton) << skeleton.error().message;
+  ASSERT_EQ(skeleton->stems.size(), 2u);
+  ASSERT_EQ(skeleton->stems[0].nodes.size(), 5u);
+  double length = 0;
+  for (std::size_t i = 1; i < 5; ++i) length += glm::distance(skeleton->nodes[i].position.at, skeleton->nodes[i - 1].position.at);
+  EXPECT_NEAR(length, 0.4, 1e-12);
+  EXPECT_EQ(skeleton->stems[1].nodes.front(), skeleton->stems[0].nodes[3]);
+}
+
 TEST(PlantSkeleton, IsOneTreeWhoseParentsComeFirst) {
   const auto skeleton = skeletonOf(test::shrub(2));
   ASSERT_TRUE(skeleton);
