@@ -117,6 +117,7 @@ void addGrow(CLI::App& app, int& status, GrowCommand& command) {
   addSeed(sub, command.seed);
   addLimits(sub, command.limits);
   sub->add_option("--frames", command.frames, "How many pictures of the growth from nothing to the chosen moment")->check(CLI::Range(2, 100000));
+  sub->add_option("--unit", command.unit, "Unit of the grammar's lengths, for .glb, which is in metres")->check(CLI::IsMember({"m", "dm", "cm", "mm"}))->capture_default_str();
   sub->add_option("--view", command.view, "front, right, top or quarter")->check(CLI::IsMember({"front", "right", "top", "quarter"}))->capture_default_str();
   sub->add_option("--width", command.width, "Pixels")->check(CLI::Range(16, 8192))->capture_default_str();
   sub->add_option("--height", command.height, "Pixels")->check(CLI::Range(16, 8192))->capture_default_str();

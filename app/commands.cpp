@@ -287,7 +287,7 @@ Result<void> grow(const simeco::Grammar& grammar, std::uint64_t seed, const Grow
   if (!mesh) return mesh.failure();
   for (const std::string& note : mesh->notes) std::fprintf(stderr, "axil: note: %s\n", note.c_str());
   if (ending == ".png") return written(pictureBytes(*mesh, picture), command.out);
-  if (ending == ".glb") return written(render::glbBytes(*mesh), command.out);
+  if (ending == ".glb") return written(render::glbBytes(*mesh, {.metresPerUnit = document::metresPer(command.unit).value_or(1)}), command.out);
   if (ending == ".ply") return written(render::plyBytes(*mesh), command.out);
   return writeObj(*mesh, command.out);
 }

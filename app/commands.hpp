@@ -66,6 +66,7 @@ struct GrowCommand {
   std::optional<int> frames;
   std::string out;
   std::string view = "quarter";
+  std::string unit = "m";  ///< of the grammar's lengths
   int width = 1200;
   int height = 1600;
   simeco::Environment environment;

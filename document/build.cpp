@@ -122,13 +122,6 @@ Result<void> writeGrowth(Output& output, const Growth& growth, const render::Pic
   return render::writeAnimation(folder / "growth.mp4", at, animation, options.chain.watch);
 }
 
-/// How long one `unit` is in metres, the unit of glTF; none for a word that is not known.
-std::optional<double> metresPer(const std::string& unit) {
-  static const std::map<std::string, double> metres = {{"m", 1.0}, {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}};
-  const auto known = metres.find(unit);
-  return known == metres.end() ? std::nullopt : std::optional(known->second);
-}
-
 std::string reportText(const BuildReport& report) {
   nlohmann::ordered_json json = {{"axil_report", 1}, {"name", report.name}, {"unit", report.unit}, {"nodes", report.nodes}, {"stems", report.stems},
                                  {"segments", report.segments}, {"leaves", report.leaves}, {"height", report.height},
@@ -203,6 +196,12 @@ BuildReport reportOn(const Project& project, const Skeleton& skeleton, const qua
 }
 
 }  // namespace
+
+std::optional<double> metresPer(const std::string& unit) {
+  static const std::map<std::string, double> metres = {{"m", 1.0}, {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}};
+  const auto known = metres.find(unit);
+  return known == metres.end() ? std::nullopt : std::optional(known->second);
+}
 
 Result<BuildReport> build(const OpenProject& open, const fs::path& folder, const BuildOptions& options) {
   const auto clicks = measured(open, options.chain);
