@@ -368,6 +368,16 @@ class Grammars(Case):
     def test_grow_refuses_an_ending_it_does_not_know(self):
         self.refused("grow", self.write("g.simeco", GRAMMAR), "-o", self.folder / "plant.stl", says=".stl")
 
+    def test_limits_are_options(self):
+        err = self.refused("derive", self.write("g.simeco", GRAMMAR), "--max-modules", 5, says="more than 5 modules")
+        self.assertIn("A(1)", err)
+
+    def test_the_unit_reaches_the_mesh(self):
+        path = self.write("g.simeco", GRAMMAR)
+        for unit in ("m", "cm"):
+            self.assertEqual(axil("grow", path, "--unit", unit, "-o", self.folder / f"{unit}.glb")[0], 0)
+        self.assertFalse(filecmp.cmp(self.folder / "m.glb", self.folder / "cm.glb", shallow=False))
+
     def test_lengths_at_a_moment(self):
         path = self.write("g.simeco", GRAMMAR)
         self.assertEqual(axil("grow", path, "--time", 2.5, "-o", self.folder / "young.json")[0], 0)
