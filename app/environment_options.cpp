@@ -60,17 +60,17 @@ std::optional<simeco::Obstacle> obstacleIn(const std::string& text) {
 
 }  // namespace
 
-void addEnvironment(CLI::App* sub, simeco::Environment& environment) {
+void addEnvironment(CLI::App& sub, simeco::Environment& environment) {
   constexpr const char* kGroup = "Environment (counts over what the grammar says)";
   for (const VectorOption& row : kVectors)
-    sub->add_option_function<std::string>(row.name, [&environment, &row](const std::string& text) {
+    sub.add_option_function<std::string>(row.name, [&environment, &row](const std::string& text) {
           const auto n = numbersIn(text, 3);
           if (!n) throw CLI::ValidationError(row.name, "takes three numbers x,y,z, not '" + text + "'");
           environment.*row.vector = glm::dvec3{(*n)[0], (*n)[1], (*n)[2]};
         }, row.help)->option_text("X,Y,Z")->group(kGroup);
   for (const NumberOption& row : kNumbers)
-    sub->add_option_function<double>(row.name, [&environment, &row](const double& number) { environment.*row.number = number; }, row.help)->group(kGroup);
-  sub->add_option_function<std::vector<std::string>>("--obstacle", [&environment](const std::vector<std::string>& texts) {
+    sub.add_option_function<double>(row.name, [&environment, &row](const double& number) { environment.*row.number = number; }, row.help)->group(kGroup);
+  sub.add_option_function<std::vector<std::string>>("--obstacle", [&environment](const std::vector<std::string>& texts) {
         for (const std::string& text : texts) {
           const auto obstacle = obstacleIn(text);
           if (!obstacle) throw CLI::ValidationError("--obstacle", "takes sphere:x,y,z,radius or box:x,y,z,x,y,z, not '" + text + "'");

@@ -11,6 +11,6 @@ class App;
 namespace axil::app {
 
 /// Adds the options to `sub`; what is given lands in `environment`, which must outlive the parsing.
-void addEnvironment(CLI::App* sub, simeco::Environment& environment);
+void addEnvironment(CLI::App& sub, simeco::Environment& environment);
 
 }  // namespace axil::app

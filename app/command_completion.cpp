@@ -1,6 +1,5 @@
-#include "app/completion.hpp"
-
-#include <CLI/CLI.hpp>
+#include "app/commands.hpp"
+#include "app/terminal.hpp"
 
 #include <vector>
 
@@ -74,12 +73,21 @@ std::string fishScript(const std::vector<Command>& commands) {
   return text;
 }
 
-}  // namespace
-
 std::string completionScript(const CLI::App& app, const std::string& shell) {
   const std::vector<Command> commands = commandsOf(app);
   if (shell == "zsh") return zshScript(commands);
   return shell == "fish" ? fishScript(commands) : bashScript(commands);
+}
+
+}  // namespace
+
+// Made from the commands themselves, so that it never lags behind them.
+void addCompletion(CLI::App& sub, int& status) {
+  addExamples(sub, "  axil completion bash > ~/.local/share/bash-completion/completions/axil\n"
+                   "  axil completion zsh > ~/.zfunc/_axil\n  axil completion fish > ~/.config/fish/completions/axil.fish");
+  auto shell = std::make_shared<std::string>();
+  sub.add_option("SHELL", *shell, "bash, zsh or fish")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  sub.callback([shell, &sub, &status] { status = print(completionScript(*sub.get_parent(), *shell)); });
 }
 
 }  // namespace axil::app

@@ -1,0 +1,94 @@
+#include "app/commands.hpp"
+#include "app/grammar_options.hpp"
+#include "app/terminal.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+namespace axil::app {
+
+namespace {
+
+struct DeriveCommand {
+  std::string grammar;
+  std::string plant;  ///< its name; empty: the first
+  std::optional<std::int64_t> steps;
+  std::uint64_t seed = 1;
+  enum class Print { Text, Counts, Stats } print = Print::Text;
+  bool singlePrecision = false;
+  int threads = 0;
+  simeco::Limits limits;
+};
+
+using Json = nlohmann::ordered_json;
+
+std::string countsText(const simeco::Derivation& derivation) {
+  return Json{{"steps", derivation.modulesPerStep}, {"letters", simeco::letterCounts(derivation.string)}}.dump() + "\n";
+}
+
+std::string statsText(const simeco::Derivation& derivation) {
+  return Json{{"modules", derivation.string.size()},
+              {"steps", derivation.modulesPerStep.size()},
+              {"derive_seconds", derivation.seconds},
+              {"peak_bytes", derivation.peakBytes},
+              {"threads", derivation.threads}}
+             .dump() + "\n";
+}
+
+/// An L-system may ask where its turtle is, and its view file says where that starts.
+Result<simeco::Derivation> derived(const simeco::Grammar& grammar, const std::string& path, const simeco::DeriveOptions& options) {
+  if (grammar.language != simeco::Language::LSystem) return simeco::derive(grammar, options);
+  const auto view = simeco::viewBeside(path);
+  if (!view) return view.failure();
+  return simeco::deriveLSystem(grammar, {.derive = options, .view = *view});
+}
+
+std::string stringText(const simeco::Grammar& grammar, const simeco::Derivation& derivation) {
+  return (grammar.language == simeco::Language::LSystem ? simeco::toLSystemText(derivation.string) : simeco::toText(derivation.string)) + "\n";
+}
+
+int run(const DeriveCommand& command) {
+  const auto grammar = grammarIn(command.grammar);
+  if (!grammar) return report(grammar.error());
+  const auto plant = plantNamed(*grammar, command.plant);
+  if (!plant) return report(plant.error());
+  if (command.plant.empty() && grammar->plants.size() > 1)
+    std::fprintf(stderr, "axil: note: the ecosystem has %zu plants; this is \"%s\", --plant NAME derives another\n", grammar->plants.size(), grammar->plants.front().name.c_str());
+  simeco::DeriveOptions options;
+  options.plant = *plant;
+  options.steps = command.steps;
+  options.seed = seedOf(command.seed, *plant);
+  options.limits = command.limits;
+  options.threads = command.threads;
+  options.singlePrecision = command.singlePrecision;
+  options.watch = terminalWatch();
+  options.host.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); };
+  const auto derivation = derived(*grammar, command.grammar, options);
+  if (!derivation) return report(derivation.error());
+  for (const std::string& warning : derivation->warnings) std::fprintf(stderr, "%s: warning: %s\n", command.grammar.c_str(), warning.c_str());
+  switch (command.print) {
+    case DeriveCommand::Print::Counts: return print(countsText(*derivation));
+    case DeriveCommand::Print::Stats: return print(statsText(*derivation));
+    case DeriveCommand::Print::Text: break;
+  }
+  return print(stringText(*grammar, *derivation));
+}
+
+}  // namespace
+
+void addDerive(CLI::App& sub, int& status) {
+  auto& command = onCall<DeriveCommand>(sub, status, run);
+  addExamples(sub, "  axil derive plant.simeco --steps 3\n  axil derive plant.simeco --counts    # modules after every step, letters of the last string");
+  addGrammar(sub, command.grammar);
+  sub.add_option("--steps", command.steps, "Derivation steps; by default the file's own length, else until nothing changes")->check(CLI::NonNegativeNumber);
+  addPlant(sub, command.plant, "the first");
+  addSeed(sub, command.seed);
+  addLimits(sub, command.limits);
+  auto* counts = sub.add_flag_callback("--counts", [&command] { command.print = DeriveCommand::Print::Counts; }, "Print JSON: modules a step, letters of the string");
+  sub.add_flag_callback("--stats", [&command] { command.print = DeriveCommand::Print::Stats; }, "Print JSON: modules, seconds, bytes, threads; no string")->excludes(counts);
+  sub.add_flag("--single", command.singlePrecision, "Keep parameters in single precision, as classic programs do");
+  sub.add_option("--threads", command.threads, "Threads; 0 takes what the machine has. The string does not depend on it")->check(CLI::Range(0, 1024))->capture_default_str();
+}
+
+}  // namespace axil::app

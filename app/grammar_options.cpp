@@ -1,0 +1,60 @@
+#include "app/grammar_options.hpp"
+
+#include "base/rng.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+
+namespace axil::app {
+
+namespace {
+
+/// Warnings do not stop anything; they go to stderr, with the place they are about.
+void warn(const simeco::GrammarFile& file) {
+  for (const Diagnostic& d : file.parsed.diagnostics)
+    if (d.severity == Severity::Warning) std::fprintf(stderr, "%s\n", formatWithCaret(d, file.text, file.path.string()).c_str());
+}
+
+}  // namespace
+
+Result<simeco::Grammar> grammarIn(const std::string& path) {
+  auto file = simeco::readGrammarFile(path);
+  if (!file) return file.failure();
+  if (file->parsed.ok()) {
+    warn(*file);
+    return std::move(file->parsed.grammar);
+  }
+  Error error{ErrorCode::BadGrammar, path + " has errors", {}};
+  for (const Diagnostic& d : file->parsed.diagnostics) error.details.push_back(formatWithCaret(d, file->text, path));
+  return fail(std::move(error));
+}
+
+Result<std::size_t> plantNamed(const simeco::Grammar& grammar, const std::string& name) {
+  std::string names;
+  for (std::size_t i = 0; i < grammar.plants.size(); ++i) {
+    if (name.empty() || grammar.plants[i].name == name) return i;
+    names += (names.empty() ? "\"" : ", \"") + grammar.plants[i].name + "\"";
+  }
+  if (names.empty()) return fail(ErrorCode::BadGrammar, "the grammar has no plant");
+  return fail(ErrorCode::BadInput, "the grammar has no plant \"" + name + "\"; it has " + names);
+}
+
+std::uint64_t seedOf(std::uint64_t seed, std::size_t plant) { return plant == 0 ? seed : Rng(seed).split(plant).bits(); }
+
+void addGrammar(CLI::App& sub, std::string& grammar) { sub.add_option("GRAMMAR", grammar, "A .simeco or .l file")->required(); }
+
+void addSeed(CLI::App& sub, std::uint64_t& seed) {
+  sub.add_option("--seed", seed, "Seed of every random choice; the same seed grows the same plant")->capture_default_str();
+}
+
+void addPlant(CLI::App& sub, std::string& plant, const char* otherwise) {
+  sub.add_option("--plant", plant, std::string("Name of one plant of the ecosystem; by default ") + otherwise)->option_text("NAME");
+}
+
+void addLimits(CLI::App& sub, simeco::Limits& limits) {
+  sub.add_option("--max-modules", limits.modules, "Stop with a message at this many modules")->check(CLI::PositiveNumber)->capture_default_str();
+  sub.add_option("--max-seconds", limits.seconds, "Stop with a message after this much time")->check(CLI::PositiveNumber)->capture_default_str();
+}
+
+}  // namespace axil::app
