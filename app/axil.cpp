@@ -8,6 +8,8 @@
 #include "app/commands.hpp"
 #include "app/hand_over.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <cstdlib>
 

@@ -2,6 +2,8 @@
 #include "app/project_options.hpp"
 #include "document/build.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 
 namespace axil::app {

@@ -2,6 +2,8 @@
 #include "app/grammar_options.hpp"
 #include "app/terminal.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace axil::app {
 
 namespace {

@@ -1,6 +1,8 @@
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <vector>
 
 namespace axil::app {

@@ -2,6 +2,7 @@
 #include "app/grammar_options.hpp"
 #include "app/terminal.hpp"
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cstdio>

@@ -2,6 +2,8 @@
 #include "app/project_options.hpp"
 #include "simeco/simeco.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <map>
 
 namespace axil::app {

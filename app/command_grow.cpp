@@ -8,6 +8,8 @@
 #include "document/skeleton_file.hpp"
 #include "render/render.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <functional>

@@ -3,6 +3,8 @@
 #include "base/files.hpp"
 #include "keywords/keywords.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <iostream>
 #include <string>
 

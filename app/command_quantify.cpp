@@ -1,6 +1,8 @@
 #include "app/commands.hpp"
 #include "app/project_options.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace axil::app {
 
 namespace {

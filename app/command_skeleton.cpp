@@ -2,6 +2,8 @@
 #include "app/project_options.hpp"
 #include "document/skeleton_file.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace axil::app {
 
 namespace {

@@ -3,9 +3,12 @@
 /// The commands of `axil`: one file each, `command_NAME.cpp`, with its options and what it does, and one row of the table in
 /// axil.cpp. Data goes to stdout, words to stderr (terminal.hpp); docs/files.md says what each prints.
 
-#include <CLI/CLI.hpp>
-
+#include <functional>
 #include <memory>
+
+namespace CLI {
+class App;
+}
 
 namespace axil::app {
 
@@ -16,15 +19,18 @@ using AddCommand = void(CLI::App& sub, int& status);
 // Weak: a command that needs heavy libraries is linked only into the program that has them (docs/decisions/start.md).
 [[gnu::weak]] AddCommand addKeywords, addSkeleton, addQuantify, addEmit, addCheck, addDerive, addGrow, addBuild, addCompletion;
 
+/// Does `call` when `sub` is called, after its options are read.
+void setCallback(CLI::App& sub, std::function<void()> call);
+
 /// The values that the options of `sub` fill, kept as long as `sub`; `run` gets them when the command is called.
 template <class Options>
 Options& onCall(CLI::App& sub, int& status, int (*run)(const Options&)) {
   auto options = std::make_shared<Options>();
-  sub.callback([options, run, &status] { status = run(*options); });
+  setCallback(sub, [options, run, &status] { status = run(*options); });
   return *options;
 }
 
 /// How a command is called, shown below its help; whole lines, indented by two blanks.
-inline void addExamples(CLI::App& sub, const char* examples) { sub.footer(std::string("Examples:\n") + examples); }
+void addExamples(CLI::App& sub, const char* examples);
 
 }  // namespace axil::app
