@@ -253,13 +253,29 @@ class Checker {
         report_.error(s.where, std::string(keywordOf(o.kind)) + " has a second Stage " + std::to_string(s.number),
                       "give it another number");
       if (s.number < 0) report_.error(s.where, "a stage's number must not be negative");
-      attributes(s.attributes, InOrgan);
+      stageAttributes(s);
     }
+  }
+  /// Beside the environment they may use the stage's own arguments.
+  void stageAttributes(const Stage& s) {
+    if (!s.parameters.empty()) since11("stages with arguments", s.where);
+    const auto outside = environment_;
+    std::set<std::string_view> own;
+    for (const std::string& name : s.parameters) {
+      if (!own.insert(name).second) report_.error(s.where, "'" + name + "' names two arguments of the stage", "rename one");
+      environment_.insert(name);
+    }
+    attributes(s.attributes, InOrgan);
+    environment_ = outside;
   }
   void gatherStages(const PlantGrammar& p) {
     stages_.clear();
+    stageArguments_.clear();
     for (const OrganBlock& o : p.organs)
-      for (const Stage& s : o.stages) stages_[letterOf(o.kind)].insert(s.number);
+      for (const Stage& s : o.stages) {
+        stages_[letterOf(o.kind)].insert(s.number);
+        stageArguments_[{letterOf(o.kind), s.number}] = s.parameters.size();
+      }
     uses_.clear();
     gatherUses(p.rules);
     for (const RuleSet& further : p.subRules) gatherUses(further);
@@ -510,6 +526,7 @@ class Checker {
   void stageOf(const Module& m) {
     const auto kind = organOfLetter(m.letter);
     const Number* number = kind && !m.arguments.empty() ? numberIn(grammar_, m.arguments[0]) : nullptr;
+    if (number) furtherArguments(m, number->value);
     if (!number || isAnswered(m.letter, number->value)) return;
     const auto found = stages_.find(m.letter);
     if (found != stages_.end() && found->second.contains(number->value)) return;
@@ -519,6 +536,14 @@ class Checker {
     report_.error(m.where,
                   "unknown stage: " + std::string(keywordOf(*kind)) + " has no Stage " + textOf(*number) + " and no rule rewrites " + said,
                   found == stages_.end() ? std::string(keywordOf(*kind)) + " has no stages at all" : stageHint(found->second));
+  }
+  /// What the stage names, the module must give.
+  void furtherArguments(const Module& m, double number) {
+    const auto named = stageArguments_.find({m.letter, number});
+    if (named == stageArguments_.end() || m.arguments.size() > named->second) return;
+    report_.error(m.where, "'" + printModule(grammar_, m) + "' has " + std::to_string(m.arguments.size() - 1) + " further arguments, but its Stage names " +
+                               std::to_string(named->second),
+                  "write them behind the number, as in " + m.letter + "(1, 0.2)");
   }
   static std::string stageHint(const std::set<double>& numbers) {
     return "its stages go from " + shortest(*numbers.begin()) + " to " + shortest(*numbers.rbegin());
@@ -692,6 +717,7 @@ class Checker {
   std::unordered_set<std::string_view> usedNames_;
   std::set<std::string> toldFeatures_;
   std::map<std::string, std::set<double>> stages_;
+  std::map<std::pair<std::string, double>, std::size_t> stageArguments_;  ///< how many further arguments a stage names
   std::map<std::string, LetterUse> uses_;
   std::map<std::string, std::unordered_map<double, bool>> answered_;
   std::unordered_set<std::string_view> arrays_;

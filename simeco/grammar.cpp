@@ -95,7 +95,7 @@ class Comparer {
     return a.name == b.name && same(a.value, b.value) && a.comments == b.comments;
   }
   [[nodiscard]] bool same(const Stage& a, const Stage& b) const {
-    return a.number == b.number && same(a.attributes, b.attributes) && a.comments == b.comments;
+    return a.number == b.number && a.parameters == b.parameters && same(a.attributes, b.attributes) && a.comments == b.comments;
   }
   [[nodiscard]] bool same(const OrganBlock& a, const OrganBlock& b) const {
     return a.kind == b.kind && same(a.attributes, b.attributes) && same(a.stages, b.stages) && a.comments == b.comments;

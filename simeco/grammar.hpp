@@ -228,9 +228,11 @@ struct Attribute {
   SourceSpan where;
 };
 
-/// `Stage 3 { ... }`: one numbered kind of an organ.
+/// `Stage 3 { ... }`: one numbered kind of an organ. `Stage 3(length, radius) { GrowRate = length; ... }` names the further arguments
+/// of its modules, S(3, 0.2, 0.01), for its attributes.
 struct Stage {
   int number = 0;
+  std::vector<std::string> parameters;  ///< SimEco 1.1
   std::vector<Attribute> attributes;
   Comments comments;
   SourceSpan where;

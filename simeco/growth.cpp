@@ -126,15 +126,19 @@ class Recorder {
     if (role.role != Role::Organ) return {};
     const StageRules* stage = stageOf(view, role.kind);
     if (stage == nullptr) return {};
-    auto body = newBody(*stage, role.kind, module, rule);
+    auto body = newBody(*stage, role.kind, view, module, rule);
     if (!body) return body.failure();
     pieces_.back().body = static_cast<std::int32_t>(bodies_.size());
     bodies_.push_back(*std::move(body));
     return {};
   }
 
-  Result<Body> newBody(const StageRules& stage, OrganKind kind, std::size_t module, std::int32_t rule) {
-    const Draws::Place place{static_cast<std::uint64_t>(engine_.stepsDone()), module};
+  Result<Body> newBody(const StageRules& stage, OrganKind kind, const ModuleView& view, std::size_t module, std::int32_t rule) {
+    const std::span<const double> further = std::span(view.parameters).subspan(1);
+    if (further.size() < stage.parameters)
+      return fail(ErrorCode::BadGrammar, std::string(view.letter) + "(" + shortest(view.parameters[0]) + ") has " + std::to_string(further.size()) +
+                                             " further arguments, but its Stage names " + std::to_string(stage.parameters));
+    const Draws::Place place{static_cast<std::uint64_t>(engine_.stepsDone()), module, further};
     const auto sizes = draws_.sizesOf(stage, place);
     if (!sizes) return sizes.failure();
     const auto habit = habitOf(stage, place);

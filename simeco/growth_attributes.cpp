@@ -155,9 +155,9 @@ struct StageView {
   }
 };
 
-Result<SizeRule> sizeRule(const Grammar& grammar, const Attribute* attribute, double otherwise) {
+Result<SizeRule> sizeRule(const StageView& view, const Attribute* attribute, double otherwise) {
   if (attribute == nullptr) return SizeRule{{}, otherwise};
-  auto compiled = compileExpression(grammar, attribute->value);
+  auto compiled = compileExpression(view.grammar, attribute->value, view.stage.parameters);
   if (!compiled) return badAttribute(attribute->name, "is not a number: " + compiled.error().message);
   return SizeRule{*std::move(compiled), otherwise};
 }
@@ -183,7 +183,7 @@ Result<void> readHabit(const StageView& view, StageRules& rules) {
   if (!tropism) return tropism.failure();
   rules.habit.tropism = *tropism;
   for (const HabitRow& row : kHabits) {
-    auto rule = sizeRule(view.grammar, row.ofPlant ? view.ownOrPlants(row.attribute) : view.own(row.attribute), rules.habit.*row.number);
+    auto rule = sizeRule(view, row.ofPlant ? view.ownOrPlants(row.attribute) : view.own(row.attribute), rules.habit.*row.number);
     if (!rule) return rule.failure();
     rules.habitRules.push_back(*std::move(rule));
   }
@@ -220,13 +220,14 @@ Result<void> addWitherStyles(const StageView& view, StageRules& rules, std::vect
 
 Result<StageRules> readStage(const StageView& view, std::vector<OrganStyle>& styles) {
   StageRules rules;
+  rules.parameters = view.stage.parameters.size();
   const struct {
     const char* name;
     SizeRule& rule;
     double otherwise;
   } rows[] = {{"GrowRate", rules.growRate, 0}, {"GrowTime", rules.growTime, 1}, {"BroadenRate", rules.broadenRate, 0}, {"BroadenTime", rules.broadenTime, 0}};
   for (const auto& row : rows) {
-    auto rule = sizeRule(view.grammar, view.own(row.name), row.otherwise);
+    auto rule = sizeRule(view, view.own(row.name), row.otherwise);
     if (!rule) return rule.failure();
     row.rule = *std::move(rule);
   }
@@ -320,19 +321,20 @@ Result<Habit> Draws::habitOf(const StageRules& stage, Place place) const {
 
 Result<double> Draws::draw(const SizeRule& rule, const char* name, double least, Place place, std::uint64_t which) const {
   if (!rule.expression) return rule.otherwise;
-  const auto value = compute(*rule.expression, random_.split(place.step, place.module).split(which));
+  const auto value = compute(*rule.expression, random_.split(place.step, place.module).split(which), place.arguments);
   if (!value) return badAttribute(name, "of a stage cannot be computed: " + value.error().message);
   if (std::isfinite(*value) && *value >= least) return *value;
   return badAttribute(name, "of a stage must be a finite number" + std::string(least == 0 ? " of at least 0" : "") + ", not " + shortest(*value));
 }
 
-Result<double> Draws::compute(const CompiledExpression& expression, const Rng& rng) const {
+Result<double> Draws::compute(const CompiledExpression& expression, const Rng& rng, std::span<const double> arguments) const {
   if (expression.isConstant()) return expression.term.value;
   const Host noHost;
   const SharedSettings shared{expression.program.get(), &limits_, &watch_, &noHost, std::chrono::steady_clock::time_point::max()};
   Machine machine(shared);
   machine.setRandom(rng);
-  const double value = machine.value(expression.term, nullptr);
+  std::vector<double> locals(arguments.begin(), arguments.end());  // an expression assigns none of them
+  const double value = machine.value(expression.term, locals.data());
   if (machine.trouble()) return fail(*machine.trouble());
   return value;
 }

@@ -19,6 +19,7 @@ struct SizeRule {
 /// What a stage says about its organs.
 struct StageRules {
   std::int32_t style = 0;
+  std::size_t parameters = 0;           ///< further arguments of its modules that its rules may use
   SizeRule growRate, growTime, broadenRate, broadenTime;
   Habit habit;                          ///< what is fixed of it
   std::vector<SizeRule> habitRules;     ///< a rule a number of the habit, in the order of the table; for whatever is not said: its default
@@ -50,8 +51,10 @@ class Draws {
  public:
   Draws(std::uint64_t seed, const Limits& limits, const Watch& watch) : random_(Rng(seed).split(sizeStream)), limits_(limits), watch_(watch) {}
 
+  /// Which organ it is, and its further arguments.
   struct Place {
     std::uint64_t step = 0, module = 0;
+    std::span<const double> arguments = {};
   };
   struct Sizes {
     double rate = 0, growTime = 0, broadenRate = 0, broadenTime = 0;
@@ -62,7 +65,7 @@ class Draws {
  private:
   static constexpr std::uint64_t sizeStream = 101;
   [[nodiscard]] Result<double> draw(const SizeRule& rule, const char* name, double least, Place place, std::uint64_t which) const;
-  [[nodiscard]] Result<double> compute(const CompiledExpression& expression, const Rng& rng) const;
+  [[nodiscard]] Result<double> compute(const CompiledExpression& expression, const Rng& rng, std::span<const double> arguments) const;
 
   Rng random_;
   const Limits& limits_;

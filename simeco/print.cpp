@@ -186,6 +186,8 @@ class Printer {
     lines(s.comments.before);
     indent();
     out_ += "Stage " + std::to_string(s.number);
+    for (std::size_t i = 0; i < s.parameters.size(); ++i) out_ += (i == 0 ? "(" : ", ") + s.parameters[i];
+    if (!s.parameters.empty()) out_ += ")";
     if (s.attributes.empty() && isBare(s.comments)) return closeEmpty(s.comments);
     open(s.comments);
     attributes(s.attributes);

@@ -80,10 +80,11 @@ class Compiler {
     for (std::size_t i = 0; i < plant.subRules.size(); ++i) compileSystem(plant.subRules[i], program_.systems[i + 1]);
   }
 
-  Term single(ExprId id) {
+  Term single(ExprId id, const std::vector<std::string>& locals) {
     readEnvironment(grammar_.attributes);
     program_.systems.resize(1);
     Scope scope{{}, &program_.systems[0]};
+    for (std::size_t i = 0; i < locals.size(); ++i) scope.locals.emplace(locals[i], static_cast<std::uint16_t>(i));
     return term(id, scope);
   }
 
@@ -810,9 +811,9 @@ Result<std::shared_ptr<const Program>> compile(const Grammar& grammar, std::size
   return compiler.take();
 }
 
-Result<CompiledExpression> compileExpression(const Grammar& grammar, ExprId id, const CompileOptions& options) {
+Result<CompiledExpression> compileExpression(const Grammar& grammar, ExprId id, const std::vector<std::string>& locals, const CompileOptions& options) {
   Compiler compiler(grammar, options);
-  const Term term = compiler.single(id);
+  const Term term = compiler.single(id, locals);
   if (!compiler.errors().empty()) return refused(compiler.errors());
   if (term.kind == Term::Kind::Constant) return CompiledExpression{nullptr, term};
   return CompiledExpression{compiler.take(), term};

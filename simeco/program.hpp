@@ -182,12 +182,13 @@ struct CompileOptions {
 /// Makes plant number `plant` of `grammar` ready to run.
 [[nodiscard]] Result<std::shared_ptr<const Program>> compile(const Grammar& grammar, std::size_t plant, const CompileOptions& options = {});
 
-/// An expression of an attribute, ready to be evaluated for each organ; names are the environment's.
+/// An expression of an attribute, ready to be evaluated for each organ; names are those in `locals` (values in that order) and the environment's.
 struct CompiledExpression {
   std::shared_ptr<const Program> program;
   Term term;
   [[nodiscard]] bool isConstant() const { return term.kind == Term::Kind::Constant; }
 };
-[[nodiscard]] Result<CompiledExpression> compileExpression(const Grammar& grammar, ExprId id, const CompileOptions& options = {});
+[[nodiscard]] Result<CompiledExpression> compileExpression(const Grammar& grammar, ExprId id, const std::vector<std::string>& locals = {},
+                                                               const CompileOptions& options = {});
 
 }  // namespace axil::simeco

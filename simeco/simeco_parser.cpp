@@ -209,6 +209,7 @@ class Parser : private RuleParser {
     const std::uint32_t begin = token_.span.begin;
     advance();
     const std::optional<int> number = stageNumber();
+    if (take(TokenKind::LeftParen)) stageParameters(stage);
     stage.where = spanFrom(begin);
     openBlock(Level::Stage, stage.where, stage.comments);
     while (!blockEnds(Level::Stage)) attribute(stage.attributes, Level::Stage);
@@ -221,6 +222,15 @@ class Parser : private RuleParser {
     if (is(TokenKind::Number)) return wholeNumber<int>("a stage's number", "0 to 2147483647");
     slip(gap(), "a Stage needs its number", "write Stage 1 { ... }");
     return std::nullopt;
+  }
+  /// Stage 3(length, radius): from behind the parenthesis.
+  void stageParameters(Stage& stage) {
+    do {
+      if (!is(TokenKind::Word)) return slip(gap(), "a name for an argument of the stage is missing", "for example: Stage 1(length, radius) { GrowRate = length; }");
+      stage.parameters.emplace_back(textOf(token_));
+      advance();
+    } while (take(TokenKind::Comma));
+    expect(TokenKind::RightParen, "after", "the stage's arguments");
   }
   void attribute(std::vector<Attribute>& attributes, Level level) {
     Attribute attribute;
