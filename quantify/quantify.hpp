@@ -14,3 +14,8 @@
 #include "quantify/measure.hpp"     // a skeleton becomes numbers
 #include "quantify/csv.hpp"         // numbers as a table
 #include "quantify/statistics.hpp"  // ranges, templates, branching orders
+#include "quantify/structure.hpp"   // axes, orders, ranks, nodes, internodes, monopodial or sympodial
+#include "quantify/circular.hpp"    // means of angles around a stem
+#include "quantify/phyllotaxis.hpp" // divergence and the preset that fits it
+#include "quantify/branching.hpp"   // where along an axis branches stand
+#include "quantify/subtrees.hpp"    // what repeats, exactly and nearly
