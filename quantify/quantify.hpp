@@ -19,3 +19,5 @@
 #include "quantify/phyllotaxis.hpp" // divergence and the preset that fits it
 #include "quantify/branching.hpp"   // where along an axis branches stand
 #include "quantify/subtrees.hpp"    // what repeats, exactly and nearly
+#include "quantify/schedule.hpp"    // when each part was made, and what still grows
+#include "quantify/layers.hpp"      // statistics by order and rank, of one plant or many

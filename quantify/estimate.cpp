@@ -1,0 +1,264 @@
+#include "quantify/estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace axil::quantify {
+
+namespace {
+
+constexpr double kTuning = 1.345;       // Huber: 95 % efficient on normal samples
+constexpr double kNormalMad = 1.4826;
+constexpr int kSteps = 50;
+constexpr double kMostExtrapolation = 10;
+
+double meanOf(std::span<const double> values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+double deviationAround(std::span<const double> values, double centre) {
+  if (values.size() < 2) return 0;
+  double sum = 0;
+  for (const double v : values) sum += (v - centre) * (v - centre);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
+/// Samples by plant, in the order of plants.
+std::map<std::size_t, std::vector<double>> byPlant(std::span<const Sample> samples) {
+  std::map<std::size_t, std::vector<double>> plants;
+  for (const Sample& s : samples) plants[s.plant].push_back(s.value);
+  return plants;
+}
+
+/// The deviation within plants, all plants together.
+double withinOf(const std::map<std::size_t, std::vector<double>>& plants, const std::vector<Centre>& centres) {
+  double squares = 0;
+  double freedom = 0;
+  std::size_t p = 0;
+  for (const auto& [plant, values] : plants) {
+    const double n = static_cast<double>(values.size());
+    squares += centres[p].deviation * centres[p].deviation * (n - 1);
+    freedom += n - 1;
+    ++p;
+  }
+  return freedom > 0 ? std::sqrt(squares / freedom) : 0;
+}
+
+}  // namespace
+
+double quantileOf(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const double at = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  if (below + 1 >= values.size()) return values.back();
+  return values[below] + (at - static_cast<double>(below)) * (values[below + 1] - values[below]);
+}
+
+double medianOf(std::vector<double> values) { return quantileOf(std::move(values), 0.5); }
+
+Centre centreOf(std::span<const double> values) {
+  if (values.empty()) return {};
+  std::vector<double> copy(values.begin(), values.end());
+  const double median = medianOf(copy);
+  for (double& v : copy) v = std::abs(v - median);
+  const double scale = kNormalMad * medianOf(copy);
+  const double mean = meanOf(values);
+  // More than half of the samples alike (or too few to tell): the scale of all of them.
+  if (values.size() < 3 || scale <= 0) {
+    const bool constant = scale <= 0 && values.size() >= 3;
+    const double centre = constant ? median : mean;
+    const double deviation = deviationAround(values, mean);
+    if (!constant || deviation == 0) return {centre, deviation};
+    // Mostly one value, some others: a mixture, of which the mean is what repeats.
+    return {mean, deviation};
+  }
+  double centre = median;
+  for (int step = 0; step < kSteps; ++step) {
+    double sum = 0;
+    double weight = 0;
+    for (const double v : values) {
+      const double off = std::abs(v - centre) / scale;
+      const double w = off <= kTuning ? 1 : kTuning / off;
+      sum += w * v;
+      weight += w;
+    }
+    const double next = sum / weight;
+    const bool still = std::abs(next - centre) <= 1e-12 * scale;
+    centre = next;
+    if (still) break;
+  }
+  std::vector<double> winsorised(values.begin(), values.end());
+  constexpr double kReach = 4;  // further out is a slip, not spread
+  for (double& v : winsorised) v = std::clamp(v, centre - kReach * scale, centre + kReach * scale);
+  return {centre, deviationAround(winsorised, meanOf(winsorised))};
+}
+
+Combined combined(std::span<const double> values, std::span<const double> variances) {
+  Combined result;
+  const std::size_t k = values.size();
+  if (k == 0) return result;
+  const double most = *std::max_element(variances.begin(), variances.end());
+  if (most <= 0 || k == 1) {  // exact values differ only between themselves
+    result.value = meanOf(values);
+    result.between = deviationAround(values, result.value);
+    result.error = k > 1 ? result.between / std::sqrt(static_cast<double>(k)) : std::sqrt(most);
+    return result;
+  }
+  const double floor = 1e-9 * most;
+  double sum = 0;
+  double sumSquares = 0;
+  double weighted = 0;
+  for (std::size_t i = 0; i < k; ++i) {
+    const double w = 1 / std::max(variances[i], floor);
+    sum += w;
+    sumSquares += w * w;
+    weighted += w * values[i];
+  }
+  const double fixed = weighted / sum;
+  double q = 0;
+  for (std::size_t i = 0; i < k; ++i) q += (values[i] - fixed) * (values[i] - fixed) / std::max(variances[i], floor);
+  const double tau2 = std::max(0.0, (q - static_cast<double>(k - 1)) / (sum - sumSquares / sum));
+  double weights = 0;
+  for (std::size_t i = 0; i < k; ++i) {
+    const double w = 1 / (std::max(variances[i], floor) + tau2);
+    weights += w;
+    result.value += w * values[i];
+  }
+  result.value /= weights;
+  result.error = std::sqrt(1 / weights);
+  result.between = std::sqrt(tau2);
+  return result;
+}
+
+Estimate estimateOf(std::span<const Sample> samples, SampleKind kind) {
+  Estimate estimate;
+  estimate.samples = samples.size();
+  if (samples.empty()) return estimate;
+  const auto plants = byPlant(samples);
+  estimate.plants = plants.size();
+  std::vector<Centre> centres;
+  std::vector<double> all;
+  for (const auto& [plant, values] : plants) {
+    centres.push_back(kind == SampleKind::Share ? Centre{meanOf(values), deviationAround(values, meanOf(values))} : centreOf(values));
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  const double mean = meanOf(all);
+  double within = withinOf(plants, centres);
+  if (kind == SampleKind::Share) within = std::sqrt(mean * (1 - mean));
+  // One sample a plant: plants and samples cannot be told apart.
+  else if (all.size() == plants.size()) within = deviationAround(all, mean);
+  std::vector<double> values;
+  std::vector<double> variances;
+  std::size_t p = 0;
+  for (const auto& [plant, own] : plants) {
+    values.push_back(centres[p++].value);
+    variances.push_back(within * within / static_cast<double>(own.size()));
+  }
+  const Combined all2 = combined(values, variances);
+  estimate.own = estimate.value = all2.value;
+  estimate.error = all2.error;
+  estimate.between = all2.between;
+  estimate.deviation = within;
+  constexpr std::size_t kEnough = 20;
+  estimate.low = quantileOf(all, all.size() < kEnough ? 0 : 0.05);
+  estimate.high = quantileOf(all, all.size() < kEnough ? 1 : 0.95);
+  return estimate;
+}
+
+void pool(std::vector<Estimate*>& sisters, std::span<const double> expected) {
+  if (sisters.size() < 2) return;
+  std::vector<double> off;
+  std::vector<double> variances;
+  double widest = 0;
+  for (const Estimate* e : sisters) widest = std::max(widest, e->deviation);
+  for (std::size_t i = 0; i < sisters.size(); ++i) {
+    // A single sample has no spread of its own; it is as unsure as a sample of its sisters.
+    const double spread = std::max(sisters[i]->error, sisters[i]->samples < 2 ? widest : 0);
+    off.push_back(sisters[i]->own - expected[i]);
+    variances.push_back(spread * spread);
+  }
+  const double between = combined(off, variances).between;
+  for (std::size_t i = 0; i < sisters.size(); ++i) {
+    const double unsure = variances[i];
+    const double total = unsure + between * between;
+    sisters[i]->pooled = total > 0 ? unsure / total : 0;
+    sisters[i]->value = sisters[i]->own - sisters[i]->pooled * off[i];
+  }
+}
+
+double Trend::at(double rank) const {
+  const double y = start + slope * rank;
+  if (!logarithmic) return y;
+  const double last = start + slope * lastRank;
+  const double most = std::log(kMostExtrapolation);
+  return std::exp(rank > lastRank ? std::clamp(y, last - most, last + most) : y);
+}
+
+double Trend::step() const { return logarithmic ? std::exp(slope) : slope; }
+
+Trend trendOf(std::span<const Sample> samples, std::span<const std::size_t> axisOf, bool logarithmic) {
+  Trend trend;
+  trend.logarithmic = logarithmic;
+  std::map<std::size_t, std::vector<std::pair<double, double>>> axes;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (logarithmic && !(samples[i].value > 0)) continue;
+    axes[axisOf[i]].emplace_back(samples[i].rank, logarithmic ? std::log(samples[i].value) : samples[i].value);
+    trend.lastRank = std::max(trend.lastRank, samples[i].rank);
+    ++trend.samples;
+  }
+  if (trend.samples == 0) return trend;
+  // Within axes: what axes start from does not enter the slope. Huber's weights, a few rounds.
+  double residual = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < 10; ++round) {
+    double sxx = 0;
+    double sxy = 0;
+    std::vector<double> offs;
+    std::map<std::size_t, std::pair<double, double>> centres;
+    for (const auto& [axis, points] : axes) {
+      double w = 0, x = 0, y = 0;
+      std::vector<double> levels;
+      for (const auto& [rank, value] : points) levels.push_back(value - trend.slope * rank);
+      const double level = medianOf(levels);
+      for (const auto& [rank, value] : points) {
+        const double off = std::abs(value - trend.slope * rank - level);
+        const double weight = off <= 2 * residual ? 1 : 2 * residual / off;
+        w += weight; x += weight * rank; y += weight * value;
+      }
+      x /= w; y /= w;
+      centres[axis] = {x, y};
+      for (const auto& [rank, value] : points) {
+        const double off = std::abs(value - trend.slope * rank - level);
+        const double weight = off <= 2 * residual ? 1 : 2 * residual / off;
+        sxx += weight * (rank - x) * (rank - x);
+        sxy += weight * (rank - x) * (value - y);
+      }
+    }
+    trend.slope = sxx > 0 ? sxy / sxx : 0;
+    double squares = 0;
+    std::vector<double> starts;
+    for (const auto& [axis, points] : axes) {
+      const auto [x, y] = centres.at(axis);
+      starts.push_back(y - trend.slope * x);
+      for (const auto& [rank, value] : points) {
+        const double off = value - y - trend.slope * (rank - x);
+        squares += off * off;
+        offs.push_back(std::abs(off));
+      }
+    }
+    const double freedom = static_cast<double>(trend.samples) - static_cast<double>(axes.size()) - 1;
+    const double deviation = freedom > 0 ? std::sqrt(squares / freedom) : 0;
+    residual = std::max(1.4826 * medianOf(offs), 1e-12);
+    trend.residual = deviation;
+    trend.slopeError = sxx > 0 ? deviation / std::sqrt(sxx) : 0;
+    const Centre centre = centreOf(starts);
+    trend.start = centre.value;
+    trend.axisDeviation = centre.deviation;
+  }
+  return trend;
+}
+
+}  // namespace axil::quantify
