@@ -10,6 +10,7 @@
 #include <glm/mat4x4.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -20,29 +21,26 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr Angle goldenAngle = Angle::fromDegrees(137.50776405003785);
 
-FlowerShape shapeOf(const Table& table, const Table::Row& row) {
-  const ShapeRow cells{table, row};
-  FlowerShape shape;
-  shape.name = cells.text("name");
-  shape.petals = cells.whole("petals");
-  shape.whorls = cells.whole("whorls");
-  shape.petalShape = cells.text("petalShape");
-  shape.petalWidthToLength = cells.number("petalWidthToLength");
-  shape.spread_deg = cells.number("spread_deg");
-  shape.cup = cells.number("cup");
-  shape.tube = cells.number("tube");
-  shape.tubeRadius = cells.number("tubeRadius");
-  shape.mouthRadius = cells.number("mouthRadius");
-  shape.bilateral = cells.number("bilateral");
-  shape.sepals = cells.whole("sepals");
-  shape.sepalLength = cells.number("sepalLength");
-  shape.centreRadius = cells.number("centreRadius");
-  shape.stamens = cells.whole("stamens");
-  shape.stamenLength = cells.number("stamenLength");
-  shape.petalColour = cells.colour("petalColour");
-  shape.centreColour = cells.colour("centreColour");
-  return shape;
-}
+using Cell = const ShapeCell&;
+constexpr std::array<ShapeColumn<FlowerShape>, 17> columns{{
+    {"petals", [](FlowerShape& s, Cell c) { s.petals = c.whole(); }},
+    {"whorls", [](FlowerShape& s, Cell c) { s.whorls = c.whole(); }},
+    {"petalShape", [](FlowerShape& s, Cell c) { s.petalShape = c.text; }},
+    {"petalWidthToLength", [](FlowerShape& s, Cell c) { s.petalWidthToLength = c.number(); }},
+    {"spread_deg", [](FlowerShape& s, Cell c) { s.spread_deg = c.number(); }},
+    {"cup", [](FlowerShape& s, Cell c) { s.cup = c.number(); }},
+    {"tube", [](FlowerShape& s, Cell c) { s.tube = c.number(); }},
+    {"tubeRadius", [](FlowerShape& s, Cell c) { s.tubeRadius = c.number(); }},
+    {"mouthRadius", [](FlowerShape& s, Cell c) { s.mouthRadius = c.number(); }},
+    {"bilateral", [](FlowerShape& s, Cell c) { s.bilateral = c.number(); }},
+    {"sepals", [](FlowerShape& s, Cell c) { s.sepals = c.whole(); }},
+    {"sepalLength", [](FlowerShape& s, Cell c) { s.sepalLength = c.number(); }},
+    {"centreRadius", [](FlowerShape& s, Cell c) { s.centreRadius = c.number(); }},
+    {"stamens", [](FlowerShape& s, Cell c) { s.stamens = c.whole(); }},
+    {"stamenLength", [](FlowerShape& s, Cell c) { s.stamenLength = c.number(); }},
+    {"petalColour", [](FlowerShape& s, Cell c) { s.petalColour = c.colour(); }},
+    {"centreColour", [](FlowerShape& s, Cell c) { s.centreColour = c.colour(); }},
+}};
 
 // A blade that stands at `radius` from the axis, at `height`, turned to `azimuth` and leaning outward by `lean`; its upper
 // side looks to the axis.
@@ -146,7 +144,7 @@ Part stamensOf(const FlowerShape& shape) {
 }  // namespace
 
 const std::vector<FlowerShape>& flowerShapes() {
-  static const std::vector<FlowerShape> shapes = readShapeTable<FlowerShape>(data::flower_shapes, "flower_shapes.tsv", shapeOf);
+  static const std::vector<FlowerShape> shapes = ShapeTable<FlowerShape>(data::flower_shapes, "flower_shapes.tsv", columns).shapes();
   return shapes;
 }
 

@@ -21,35 +21,29 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-FruitExtra extraNamed(std::string_view word) {
-  constexpr std::array<std::pair<std::string_view, FruitExtra>, 6> words{{{"-", FruitExtra::None},
-                                                                          {"calyx", FruitExtra::Calyx},
-                                                                          {"cup", FruitExtra::Cup},
-                                                                          {"wing", FruitExtra::Wing},
-                                                                          {"drupelets", FruitExtra::Drupelets},
-                                                                          {"scales", FruitExtra::Scales}}};
-  const auto found = std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == word; });
-  AXIL_ASSERT(found != words.end(), "fruit_shapes.tsv has an extra that fruits do not know");
-  return found->second;
-}
+constexpr std::array<std::pair<std::string_view, FruitExtra>, 6> extraWords{{{"none", FruitExtra::None},
+                                                                             {"calyx", FruitExtra::Calyx},
+                                                                             {"cup", FruitExtra::Cup},
+                                                                             {"wing", FruitExtra::Wing},
+                                                                             {"drupelets", FruitExtra::Drupelets},
+                                                                             {"scales", FruitExtra::Scales}}};
 
-FruitShape shapeOf(const Table& table, const Table::Row& row) {
-  const ShapeRow cells{table, row};
-  FruitShape shape;
-  shape.name = cells.text("name");
-  shape.widthToLength = cells.number("widthToLength");
-  shape.widest = cells.number("widest");
-  shape.base = {cells.number("baseShoulder"), cells.number("baseEnd")};
-  shape.apex = {cells.number("apexShoulder"), cells.number("apexEnd")};
-  shape.flatness = cells.number("flatness");
-  shape.ribs = cells.whole("ribs");
-  shape.ribDepth = cells.number("ribDepth");
-  shape.seeds = cells.whole("seeds");
-  shape.bend = cells.number("bend");
-  shape.extra = extraNamed(cells.text("extra"));
-  shape.colour = cells.colour("colour");
-  return shape;
-}
+using Cell = const ShapeCell&;
+constexpr std::array<ShapeColumn<FruitShape>, 13> columns{{
+    {"widthToLength", [](FruitShape& s, Cell c) { s.widthToLength = c.number(); }},
+    {"widest", [](FruitShape& s, Cell c) { s.widest = c.number(); }},
+    {"baseShoulder", [](FruitShape& s, Cell c) { s.base.shoulder = c.number(); }},
+    {"baseEnd", [](FruitShape& s, Cell c) { s.base.end = c.number(); }},
+    {"apexShoulder", [](FruitShape& s, Cell c) { s.apex.shoulder = c.number(); }},
+    {"apexEnd", [](FruitShape& s, Cell c) { s.apex.end = c.number(); }},
+    {"flatness", [](FruitShape& s, Cell c) { s.flatness = c.number(); }},
+    {"ribs", [](FruitShape& s, Cell c) { s.ribs = c.whole(); }},
+    {"ribDepth", [](FruitShape& s, Cell c) { s.ribDepth = c.number(); }},
+    {"seeds", [](FruitShape& s, Cell c) { s.seeds = c.whole(); }},
+    {"bend", [](FruitShape& s, Cell c) { s.bend = c.number(); }},
+    {"extra", [](FruitShape& s, Cell c) { s.extra = c.oneOf(extraWords); }},
+    {"colour", [](FruitShape& s, Cell c) { s.colour = c.colour(); }},
+}};
 
 double radiusAt(const FruitShape& shape, double y) {
   const double width = y < shape.widest ? endWidth(shape.base, y / shape.widest) : endWidth(shape.apex, (1 - y) / (1 - shape.widest));
@@ -209,7 +203,7 @@ Mesh nutOf(const FruitShape& shape, Detail detail) {
 }  // namespace
 
 const std::vector<FruitShape>& fruitShapes() {
-  static const std::vector<FruitShape> shapes = readShapeTable<FruitShape>(data::fruit_shapes, "fruit_shapes.tsv", shapeOf);
+  static const std::vector<FruitShape> shapes = ShapeTable<FruitShape>(data::fruit_shapes, "fruit_shapes.tsv", columns).shapes();
   return shapes;
 }
 

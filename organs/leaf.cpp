@@ -1,177 +1,43 @@
 #include "organs/leaf.hpp"
 
-#include "organs/data.hpp"
-#include "organs/leaf_rulings.hpp"
+#include "organs/flat_shapes.hpp"
+#include "organs/leaf_posture.hpp"
 #include "organs/mesh_tools.hpp"
-#include "organs/shape_table.hpp"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <numbers>
 #include <utility>
 
 namespace axil::organs {
 
 namespace {
 
-// ---- the table
-
-constexpr std::array<std::pair<std::string_view, BaseLobes>, 4> baseLobeWords{
-    {{"-", BaseLobes::None}, {"round", BaseLobes::Round}, {"pointed", BaseLobes::Pointed}, {"ears", BaseLobes::Ears}}};
-constexpr std::array<std::pair<std::string_view, LeafLobes>, 4> lobeWords{
-    {{"-", LeafLobes::None}, {"pinnate", LeafLobes::Pinnate}, {"palmate", LeafLobes::Palmate}, {"peltate", LeafLobes::Peltate}}};
-constexpr std::array<std::pair<std::string_view, LeafMargin>, 5> marginWords{{{"entire", LeafMargin::Entire},
-                                                                             {"serrate", LeafMargin::Serrate},
-                                                                             {"dentate", LeafMargin::Dentate},
-                                                                             {"crenate", LeafMargin::Crenate},
-                                                                             {"undulate", LeafMargin::Undulate}}};
-
-template <class T, std::size_t N>
-T wordIn(const std::array<std::pair<std::string_view, T>, N>& words, std::string_view word) {
-  const auto found = std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == word; });
-  AXIL_ASSERT(found != words.end(), "leaf_shapes.tsv has a word that is none of its column's");
-  return found->second;
-}
-
-LeafShape shapeOf(const Table& table, const Table::Row& row) {
-  const ShapeRow cells{table, row};
-  LeafShape shape;
-  shape.name = cells.text("name");
-  shape.widthToLength = cells.number("widthToLength");
-  shape.widest = cells.number("widest");
-  shape.base = {cells.number("baseShoulder"), cells.number("baseEnd")};
-  shape.apex = {cells.number("apexShoulder"), cells.number("apexEnd")};
-  shape.baseLobes = wordIn(baseLobeWords, cells.text("baseLobes"));
-  shape.baseLobeDepth = cells.number("baseLobeDepth");
-  shape.apexNotch = cells.number("apexNotch");
-  shape.lobes = wordIn(lobeWords, cells.text("lobes"));
-  shape.lobeCount = cells.whole("lobeCount");
-  shape.lobeDepth = cells.number("lobeDepth");
-  shape.lobedUpTo = cells.number("lobedUpTo");
-  shape.margin = wordIn(marginWords, cells.text("margin"));
-  shape.teeth = cells.whole("teeth");
-  shape.toothDepth = cells.number("toothDepth");
-  shape.bend = cells.number("bend");
-  shape.oblique = cells.number("oblique");
-  shape.arch = cells.number("arch");
-  shape.fold = cells.number("fold");
-  return shape;
-}
-
-// ---- the posture: a height over the flat blade, so that what does not overlap when flat does not overlap in space
-
-double bowedX(const LeafShape& shape, double x, double y) { return x + shape.bend * 4 * y * (1 - y); }
-
-double archAt(const LeafShape& shape, double y) { return shape.arch * 4 * y * (1 - y) * (0.75 + 0.5 * y); }
-
-// Each half rises from the midrib and turns down again towards the margin.
-double heightAt(const LeafShape& shape, double x, double y) {
-  const double s = x / (0.5 * shape.widthToLength);
-  double height = archAt(shape, y) + shape.fold * x * (1 - 0.55 * s);
-  if (shape.margin == LeafMargin::Undulate) height += 0.10 * shape.widthToLength * s * s * std::sin(2 * std::numbers::pi * 4 * y);
-  return height;
-}
-
-glm::dvec3 pointAt(const LeafShape& shape, double side, double x, double y) { return {bowedX(shape, side * x, y), y, heightAt(shape, x, y)}; }
-
-glm::dvec3 normalAt(const LeafShape& shape, double side, double x, double y) {
-  constexpr double h = 1e-4;
-  const glm::dvec3 dx = pointAt(shape, side, x + h, y) - pointAt(shape, side, x - h, y);
-  const glm::dvec3 dy = pointAt(shape, side, x, y + h) - pointAt(shape, side, x, y - h);
-  return glm::normalize(side * glm::cross(dx, dy));
-}
-
-// ---- one half as a sheet
-
-// Vertices of one half, the same place always the same vertex. Halves do not share vertices: the midrib is a crease.
-class HalfSheet {
- public:
-  HalfSheet(const LeafShape& shape, double side) : shape_(shape), side_(side) {}
-
-  std::uint32_t vertexAt(const glm::dvec2& flat) {
-    const std::pair key{std::llround(flat.x * 1e7), std::llround(flat.y * 1e7)};
-    const auto [place, isNew] = byPlace_.try_emplace(key, static_cast<std::uint32_t>(flat_.size()));
-    if (isNew) flat_.push_back(flat);
-    return place->second;
-  }
-  // Corners in the order that is counter-clockwise on the right half. Corners that fell together make no triangle.
-  void addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    if (a == b || b == c || c == a) return;
-    if (side_ < 0) std::swap(b, c);
-    triangles_.insert(triangles_.end(), {a, b, c});
-  }
-  double area(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    const glm::dvec2 u = flat_[b] - flat_[a];
-    const glm::dvec2 v = flat_[c] - flat_[a];
-    return u.x * v.y - u.y * v.x;
-  }
-  // The diagonal that leaves the larger of the two smaller triangles.
-  void addQuad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    if (a == b || b == c || c == d || d == a) {
-      addTriangle(a, b, c);
-      addTriangle(a, c, d);
-    } else if (std::min(area(a, b, c), area(a, c, d)) >= std::min(area(a, b, d), area(b, c, d))) {
-      addTriangle(a, b, c);
-      addTriangle(a, c, d);
-    } else {
-      addTriangle(a, b, d);
-      addTriangle(b, c, d);
-    }
-  }
-  Mesh mesh() const {
-    Mesh mesh;
-    for (const glm::dvec2& f : flat_) {
-      mesh.positions.emplace_back(pointAt(shape_, side_, f.x, f.y));
-      mesh.normals.emplace_back(normalAt(shape_, side_, f.x, f.y));
-      mesh.uvs.emplace_back(std::clamp(0.5 + side_ * f.x / shape_.widthToLength, 0.0, 1.0), std::clamp(f.y, 0.0, 1.0));
-    }
-    mesh.triangles = triangles_;
-    return mesh;
-  }
-
- private:
-  const LeafShape& shape_;
-  double side_;
-  std::vector<glm::dvec2> flat_;
-  std::vector<std::uint32_t> triangles_;
-  std::map<std::pair<long long, long long>, std::uint32_t> byPlace_;
-};
-
-Mesh halfMesh(const LeafShape& shape, const std::vector<Ruling>& rulings, int columns, double side) {
-  HalfSheet sheet(shape, side);
-  const auto at = [&](const Ruling& r, int column) {
-    const double s = static_cast<double>(column) / columns;
-    return sheet.vertexAt(glm::dvec2{0, r.foot} * (1 - s) + r.margin * s);
-  };
-  for (std::size_t i = 0; i + 1 < rulings.size(); ++i)
-    for (int c = 0; c < columns; ++c) {
-      // One after another: vertices are numbered as they are first met, and compilers evaluate arguments in different orders.
-      const std::uint32_t inner = at(rulings[i], c);
-      const std::uint32_t outer = at(rulings[i], c + 1);
-      const std::uint32_t nextOuter = at(rulings[i + 1], c + 1);
-      const std::uint32_t nextInner = at(rulings[i + 1], c);
-      sheet.addQuad(inner, outer, nextOuter, nextInner);
-    }
-  return sheet.mesh();
-}
-
-// ---- the parts
+const glm::vec3 bladeColour{0.15f, 0.33f, 0.06f};
+const glm::vec3 veinColour{0.26f, 0.43f, 0.13f};
 
 struct Fineness {
   std::size_t rulings;
   int columns;
 };
 
-bool isCut(const LeafShape& shape) { return shape.lobes == LeafLobes::Pinnate || shape.lobes == LeafLobes::Palmate; }
-bool isToothed(const LeafShape& shape) { return shape.teeth > 0; }
+bool isCut(const LeafShape& shape) { return shape.lobes != LeafLobes::None; }
+bool isToothed(const LeafShape& shape) { return shape.teeth > 0 && shape.margin != LeafMargin::Ciliate; }
+
+Fineness closeFineness(const LeafShape& shape) {
+  std::size_t rulings = 20;
+  if (shape.lobes == LeafLobes::Pinnate) rulings += static_cast<std::size_t>(6 * std::max(0, shape.lobeCount));
+  if (shape.lobes == LeafLobes::Palmate) rulings += static_cast<std::size_t>(5 * std::max(0, shape.lobeCount));
+  if (isToothed(shape)) rulings += static_cast<std::size_t>((shape.margin == LeafMargin::DoublySerrate ? 6 : 3) * shape.teeth);
+  rulings = std::min<std::size_t>(rulings, 84);
+  return {rulings, rulings > 50 ? 1 : rulings > 20 ? 2 : 3};
+}
 
 Fineness finenessOf(const LeafShape& shape, Detail detail) {
   switch (detail) {
-    case Detail::Close: return isCut(shape) || isToothed(shape) ? Fineness{32, 2} : Fineness{20, 3};
+    case Detail::Close: return closeFineness(shape);
     case Detail::Medium: return isCut(shape) ? Fineness{15, 1} : Fineness{11, 1};
     case Detail::Far: return shape.lobes == LeafLobes::Palmate ? Fineness{6, 1} : Fineness{4, 1};
   }
@@ -182,6 +48,11 @@ Fineness finenessOf(const LeafShape& shape, Detail detail) {
 LeafShape simplified(LeafShape shape, Detail detail) {
   if (detail == Detail::Close) return shape;
   shape.teeth = 0;
+  if (detail == Detail::Far) {
+    shape.tailLength = 0;
+    shape.apexNotch = 0;
+    if (shape.baseLobes == BaseLobes::Auricles) shape.baseLobes = BaseLobes::None;
+  }
   if (detail == Detail::Far && shape.lobes == LeafLobes::Pinnate) {
     shape.lobes = LeafLobes::None;
     shape.widthToLength *= 1 - 0.4 * shape.lobeDepth;
@@ -189,13 +60,71 @@ LeafShape simplified(LeafShape shape, Detail detail) {
   return shape;
 }
 
-Part bladeOf(const LeafShape& shape, Detail detail) {
+Part sheetOf(const LeafShape& shape, Detail detail) {
   const LeafShape simple = simplified(shape, detail);
   const Fineness fineness = finenessOf(simple, detail);
   const std::vector<Ruling> right = rulingsOf(simple, fineness.rulings);
-  Part blade{"blade", {0.15f, 0.33f, 0.06f}, halfMesh(simple, right, fineness.columns, 1)};
-  append(blade.mesh, halfMesh(simple, leftOf(right, simple), fineness.columns, -1));
+  Part blade{"blade", bladeColour, halfBlade(simple, right, fineness.columns, 1)};
+  append(blade.mesh, halfBlade(simple, leftOf(right, simple), fineness.columns, -1));
   return blade;
+}
+
+// Whether every triangle, seen from above, faces up as its normals do.
+bool facesUp(const Mesh& mesh) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const std::uint32_t i = mesh.triangles[t], j = mesh.triangles[t + 1], k = mesh.triangles[t + 2];
+    const glm::dvec3 a = mesh.positions[i], b = mesh.positions[j], c = mesh.positions[k];
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const glm::dvec3 shaded = glm::dvec3(mesh.normals[i]) + glm::dvec3(mesh.normals[j]) + glm::dvec3(mesh.normals[k]);
+    if (normal.z <= 0 || glm::dot(normal, shaded) <= 0 || glm::length(normal) < 1e-9) return false;
+  }
+  return true;
+}
+
+// A blade of few long triangles can't take any bow: it is laid flatter until no triangle stands on edge.
+LeafShape flatEnough(LeafShape shape, Detail detail) {
+  for (int attempt = 0; attempt < 4 && !facesUp(sheetOf(shape, detail).mesh); ++attempt) {
+    const double relief = attempt < 3 ? 0.4 : 0;
+    shape.arch *= relief;
+    shape.fold *= relief;
+    shape.bend *= relief;
+  }
+  return shape;
+}
+
+// A point of the flat leaf lifted onto the blade, `above` its upper side.
+glm::dvec3 lifted(const LeafShape& shape, const glm::dvec2& flat, double above) {
+  const double x = flat.x - bowedX(shape, 0, flat.y);
+  const double side = x < 0 ? -1 : 1;
+  return pointAt(shape, side, std::abs(x), flat.y) + glm::dvec3{0, 0, above};
+}
+glm::dvec3 normalOn(const LeafShape& shape, const glm::dvec2& flat) {
+  const double x = flat.x - bowedX(shape, 0, flat.y);
+  return normalAt(shape, x < 0 ? -1 : 1, std::max(std::abs(x), 1e-3), flat.y);
+}
+
+// Adds a flat polygon that lies just above the blade. Corners in either order; the upper side is up.
+void addPatch(Mesh& mesh, const LeafShape& shape, std::vector<glm::dvec2> corners, double above) {
+  if (cross2(corners[0], corners[1], corners[2]) < 0) std::reverse(corners.begin(), corners.end());
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const glm::dvec2& c : corners) {
+    mesh.positions.emplace_back(lifted(shape, c, above));
+    mesh.normals.emplace_back(normalOn(shape, c));
+    mesh.uvs.emplace_back(std::clamp(0.5 + c.x / std::max(shape.widthToLength, 1e-3), 0.0, 1.0), std::clamp(c.y, 0.0, 1.0));
+  }
+  for (std::uint32_t i = 1; i + 1 < corners.size(); ++i) mesh.triangles.insert(mesh.triangles.end(), {first, first + i, first + i + 1});
+}
+
+// A line of `thickness` as a ribbon that tapers to a third.
+void addRibbon(Mesh& mesh, const LeafShape& shape, const std::vector<glm::vec2>& line, double thickness, double above) {
+  const auto widthAt = [&](std::size_t i) { return thickness * (1 - 0.67 * static_cast<double>(i) / static_cast<double>(line.size() - 1)); };
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const glm::dvec2 a = line[i], b = line[i + 1];
+    if (glm::distance(a, b) < 1e-5) continue;
+    const glm::dvec2 along = glm::normalize(b - a);
+    const glm::dvec2 across{-along.y, along.x};
+    addPatch(mesh, shape, {a - across * (0.5 * widthAt(i)), b - across * (0.5 * widthAt(i + 1)), b + across * (0.5 * widthAt(i + 1)), a + across * (0.5 * widthAt(i))}, above);
+  }
 }
 
 // A thin tapering tube in the crease, seen from both sides.
@@ -212,6 +141,33 @@ Part midribOf(const LeafShape& shape) {
   return {"midrib", {0.34f, 0.47f, 0.16f}, tube(path, radii, 3)};
 }
 
+// The side veins; the finest of a net are left to pictures of the outline.
+void addVeins(std::vector<Part>& parts, const LeafShape& shape) {
+  Part part{"vein", veinColour, {}};
+  const std::vector<LeafVein> veins = leafVeins(shape);
+  for (std::size_t i = shape.veins == LeafVeins::Dichotomous ? 0 : 1; i < veins.size() && i < 40; ++i) {
+    std::vector<glm::vec2> coarse;
+    const std::vector<glm::vec2>& line = veins[i].points;
+    const std::size_t step = std::max<std::size_t>(1, line.size() / 5);
+    for (std::size_t k = 0; k + 1 < line.size(); k += step) coarse.push_back(line[k]);
+    coarse.push_back(line.back());
+    addRibbon(part.mesh, shape, coarse, veins[i].thickness, 0.0035);
+  }
+  if (!part.mesh.triangles.empty()) parts.push_back(std::move(part));
+}
+
+void addSpots(std::vector<Part>& parts, const LeafShape& shape) {
+  Part part{"spot", shape.spotColour, {}};
+  for (const std::vector<glm::vec2>& spot : leafSpots(shape)) addPatch(part.mesh, shape, {spot.begin(), spot.end()}, 0.005);
+  if (!part.mesh.triangles.empty()) parts.push_back(std::move(part));
+}
+
+void addHairs(std::vector<Part>& parts, const LeafShape& shape) {
+  Part part{"hair", {0.45f, 0.50f, 0.30f}, {}};
+  for (const std::vector<glm::vec2>& hair : leafHairs(shape)) addRibbon(part.mesh, shape, hair, 0.006, 0);
+  if (!part.mesh.triangles.empty()) parts.push_back(std::move(part));
+}
+
 // Only a stub: how long a petiole is belongs to the plant, not to the blade. Needles and grass-like blades have none.
 Part petioleOf(const LeafShape& shape, Detail detail) {
   const double thick = std::min(0.014, 0.09 * shape.widthToLength);
@@ -222,22 +178,8 @@ Part petioleOf(const LeafShape& shape, Detail detail) {
 
 }  // namespace
 
-const std::vector<LeafShape>& leafShapes() {
-  static const std::vector<LeafShape> shapes = readShapeTable<LeafShape>(data::leaf_shapes, "leaf_shapes.tsv", shapeOf);
-  return shapes;
-}
-
-std::optional<LeafShape> leafShapeNamed(std::string_view name) {
-  return namedIn(leafShapes(), name);
-}
-
-LeafShape withWidth(LeafShape shape, double widthToLength) {
-  shape.widthToLength = std::clamp(widthToLength, 0.005, 3.0);
-  return shape;
-}
-
 std::vector<glm::vec2> leafOutline(const LeafShape& shape) {
-  constexpr std::size_t fine = 160;
+  constexpr std::size_t fine = 240;
   const std::vector<Ruling> right = rulingsOf(shape, fine);
   const std::vector<Ruling> left = leftOf(right, shape);
   std::vector<glm::vec2> outline;
@@ -245,7 +187,7 @@ std::vector<glm::vec2> leafOutline(const LeafShape& shape) {
     const glm::vec2 point(bowedX(shape, x, y), y);
     if (outline.empty() || glm::distance(point, outline.back()) > 1e-6f) outline.push_back(point);
   };
-  if (shape.lobes != LeafLobes::Peltate) add(0, 0);
+  add(0, shape.shield > 0 ? std::min(0.0, right.front().margin.y) : 0);
   for (const Ruling& r : right) add(r.margin.x, r.margin.y);
   add(0, 1);
   for (auto r = left.rbegin(); r != left.rend(); ++r) add(-r->margin.x, r->margin.y);
@@ -254,10 +196,17 @@ std::vector<glm::vec2> leafOutline(const LeafShape& shape) {
 }
 
 std::vector<Part> leafParts(const LeafShape& shape, std::optional<double> widthToLength, Detail detail) {
-  const LeafShape wanted = widthToLength ? withWidth(shape, *widthToLength) : shape;
-  std::vector<Part> parts{bladeOf(wanted, detail)};
-  if (detail == Detail::Close) parts.push_back(midribOf(wanted));
-  if (detail != Detail::Far) parts.push_back(petioleOf(wanted, detail));
+  const LeafShape wanted = flatEnough(widthToLength ? withWidth(shape, *widthToLength) : shape, detail);
+  std::vector<Part> parts{sheetOf(wanted, detail)};
+  if (detail == Detail::Close) {
+    parts.push_back(midribOf(wanted));
+    addVeins(parts, wanted);
+    addHairs(parts, wanted);
+  }
+  if (detail != Detail::Far) {
+    addSpots(parts, wanted);
+    parts.push_back(petioleOf(wanted, detail));
+  }
   return parts;
 }
 

@@ -6,5 +6,7 @@
 
 #include "organs/types.hpp"   // Mesh, Part, Detail
 #include "organs/leaf.hpp"    // leaf shapes, flat outlines, curved blades
+#include "organs/compound.hpp"  // leaves of several leaflets
 #include "organs/flower.hpp"  // flowers from whorls of such blades
 #include "organs/fruit.hpp"   // fruits
+#include "organs/model.hpp"   // any of them by the name in a grammar
