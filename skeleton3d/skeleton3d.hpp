@@ -17,6 +17,7 @@
 #include "skeleton3d/types.hpp"     // Camera, View, ClickedNode, Skeleton
 #include "skeleton3d/camera.hpp"    // plant points to pixels and back
 #include "skeleton3d/photo.hpp"     // photo files, upright
+#include "skeleton3d/uncertainty.hpp"  // covariance of nodes, lengths, angles
 #include "skeleton3d/estimate.hpp"  // cameras nobody calibrated
 #include "skeleton3d/solve.hpp"     // clicks to nodes
 #include "skeleton3d/tree.hpp"      // nodes and stems to one checked tree

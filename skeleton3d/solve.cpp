@@ -121,11 +121,15 @@ PlantPoint refined(const std::vector<Sighting>& sightings, PlantPoint start) {
   return {{x[0], x[1], x[2]}};
 }
 
-glm::dvec3 sigmaAt(const std::vector<Sighting>& sightings, PlantPoint point, double click_px) {
+glm::dmat3 covarianceAt(const std::vector<Sighting>& sightings, PlantPoint point) {
   glm::dmat3 normal(0.0);
   for (const Sighting& s : sightings)
     for (const glm::dvec3& row : pixelJacobian(s.view->camera, point)) normal += glm::outerProduct(row, row);
-  const glm::dmat3 covariance = glm::inverse(normal);
+  return glm::inverse(normal);
+}
+
+glm::dvec3 sigmaAt(const std::vector<Sighting>& sightings, PlantPoint point, double click_px) {
+  const glm::dmat3 covariance = covarianceAt(sightings, point);
   return click_px * glm::dvec3{std::sqrt(covariance[0][0]), std::sqrt(covariance[1][1]), std::sqrt(covariance[2][2])};
 }
 
@@ -245,6 +249,8 @@ std::vector<Trouble> clickTroubles(std::span<const View> views, const ClickedNod
   }
   return troubles;
 }
+
+glm::dmat3 covarianceOfPlace(std::span<const View> views, const ClickedNode& node, PlantPoint point) { return covarianceAt(sightingsOf(views, node), point); }
 
 Failure failWith(const std::vector<Trouble>& troubles, const std::string& what) {
   AXIL_ASSERT(!troubles.empty(), "no trouble to fail with");

@@ -23,6 +23,9 @@ struct Solved {
 /// Fails only where the views or options themselves are wrong. `unit` is the word for lengths in messages.
 [[nodiscard]] Result<Solved> solveAll(std::span<const View> views, std::span<const ClickedNode> nodes, const SolveOptions& options, const std::string& unit);
 
+/// Covariance of a node's place for clicks that scatter by one pixel, from its clicks in known cameras.
+[[nodiscard]] glm::dmat3 covarianceOfPlace(std::span<const View> views, const ClickedNode& node, PlantPoint point);
+
 /// One Error of at least one trouble: `what` names the whole ("the clicks do not make a skeleton") and the first trouble
 /// stands behind it; where there are several, `details` has a line for each, the first included.
 [[nodiscard]] Failure failWith(const std::vector<Trouble>& troubles, const std::string& what);

@@ -1,0 +1,120 @@
+#include "skeleton3d/bundle.hpp"
+#include "skeleton3d/camera.hpp"
+#include "skeleton3d/solve.hpp"
+#include "skeleton3d/solve_all.hpp"
+#include "skeleton3d/statistics.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace axil::skeleton3d::detail {
+namespace {
+
+constexpr double kLeastClick_px = 0.3;      // no one clicks better; below it rounding would be suspected
+constexpr double kWorthNaming = 0.1;        // of being the wrong one
+
+ClickedNode clickedAgain(const BundlePoint& point, const std::vector<View>& views) {
+  ClickedNode node{point.id, {}, std::nullopt};
+  for (const BundleClick& click : point.clicks) node.clicks[views[click.view].name] = {click.px};
+  return node;
+}
+
+struct Fit {
+  PlantPoint at;
+  double squares = 0;  ///< in standard deviations of a click
+};
+
+std::optional<Fit> fitted(const ClickedNode& node, const std::vector<View>& views, double click_px) {
+  const auto solved = solveNodes(views, std::span(&node, 1), {.maxReprojection_px = std::numeric_limits<double>::max()});
+  if (!solved) return std::nullopt;
+  Fit fit{solved->front().position, 0};
+  for (const auto& [view, off_px] : solved->front().reprojection_px) fit.squares += off_px * off_px / (click_px * click_px);
+  return fit;
+}
+
+int freedomOf(const ClickedNode& node) { return 2 * static_cast<int>(node.clicks.size()) - 3; }
+bool fits(const ClickedNode& node, const Fit& fit) { return fit.squares <= chiSquaredLimit(freedomOf(node)); }
+
+double offFrom(const Fit& fit, const PhotoPoint& click, const std::string& view, const std::vector<View>& views) {
+  return glm::length(project(findView(views, view)->camera, fit.at).px - click.px);
+}
+
+/// A click together with how well the others agree without it.
+struct Accused {
+  std::string view;
+  double off_px = 0;
+  double squares = 0;
+};
+
+std::vector<Accused> accusedOf(const ClickedNode& node, const std::vector<View>& views, double click_px) {
+  std::vector<Accused> accused;
+  if (node.clicks.size() < 3) return accused;
+  for (const auto& [view, click] : node.clicks) {
+    ClickedNode others = node;
+    others.clicks.erase(view);
+    const auto fit = fitted(others, views, click_px);
+    if (fit && fits(others, *fit)) accused.push_back({view, offFrom(*fit, click, view, views), fit->squares});
+  }
+  return accused;
+}
+
+/// Of clicks that could each be the wrong one, how likely each is: by how well the others agree without it.
+std::vector<SuspectClick> weighed(NodeId node, const std::vector<Accused>& accused) {
+  double least = std::numeric_limits<double>::max(), sum = 0;
+  for (const Accused& one : accused) least = std::min(least, one.squares);
+  for (const Accused& one : accused) sum += std::exp((least - one.squares) / 2);
+  std::vector<SuspectClick> suspects;
+  for (const Accused& one : accused)
+    if (const double chance = std::exp((least - one.squares) / 2) / sum; chance >= kWorthNaming) suspects.push_back({node, one.view, one.off_px, chance});
+  return suspects;
+}
+
+/// No single click explains it: all are suspect, the further off the more.
+std::vector<SuspectClick> allOf(const ClickedNode& node, const Fit& fit, const std::vector<View>& views) {
+  std::vector<SuspectClick> suspects;
+  double sum = 0;
+  for (const auto& [view, click] : node.clicks) {
+    suspects.push_back({node.id, view, offFrom(fit, click, view, views), 0});
+    sum += suspects.back().off_px;
+  }
+  for (SuspectClick& suspect : suspects) suspect.chance = sum > 0 ? suspect.off_px / sum : 0;
+  return suspects;
+}
+
+}  // namespace
+
+std::vector<SuspectClick> suspectsIn(const ClickedNode& node, const std::vector<View>& views, double click_px) {
+  const double scatter_px = std::max(click_px, kLeastClick_px);
+  const auto fit = fitted(node, views, scatter_px);
+  if (!fit || fits(node, *fit)) return {};
+  const auto accused = accusedOf(node, views, scatter_px);
+  return accused.empty() ? allOf(node, *fit, views) : weighed(node.id, accused);
+}
+
+std::vector<SuspectClick> suspectsOf(const Bundle& bundle, double click_px) {
+  const std::vector<View> views = viewsOf(bundle);
+  std::vector<SuspectClick> suspects;
+  for (std::size_t p = 0; p < bundle.nodes; ++p) {
+    const auto own = suspectsIn(clickedAgain(bundle.points[p], views), views, click_px);
+    suspects.insert(suspects.end(), own.begin(), own.end());
+  }
+  return suspects;
+}
+
+Bundle withoutSuspectsIn(Bundle bundle, const std::vector<SuspectClick>& suspects) {
+  AXIL_ASSERT(bundle.rods.empty(), "the ends of known lengths come after the suspects");
+  const std::vector<View> views = viewsOf(bundle);
+  std::vector<ClickedNode> nodes;
+  for (const BundlePoint& point : bundle.points) nodes.push_back(clickedAgain(point, views));
+  const std::vector<ClickedNode> kept = withoutSuspects(nodes, suspects);
+  for (std::size_t p = 0; p < bundle.points.size(); ++p)
+    std::erase_if(bundle.points[p].clicks, [&](const BundleClick& click) { return !kept[p].clicks.contains(views[click.view].name); });
+  std::erase_if(bundle.points, [](const BundlePoint& point) { return point.clicks.size() < 2; });
+  bundle.nodes = bundle.points.size();
+  return bundle;
+}
+
+}  // namespace axil::skeleton3d::detail
