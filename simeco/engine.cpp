@@ -1,5 +1,6 @@
 #include "simeco/engine.hpp"
 
+#include "base/text.hpp"
 #include "simeco/engine_state.hpp"
 
 #include <algorithm>
@@ -10,9 +11,9 @@ namespace {
 
 /// Bytes of everything a step holds at once.
 std::size_t held(const Engine::State& s) {
-  std::size_t bytes = s.string.bytes() + s.spare.codes.bytes() + s.spare.parameters.bytes() + s.around.bytes() + s.rightCodes.bytes();
+  std::size_t bytes = s.string.bytes() + s.spare.bytes() + s.around.bytes() + s.rightCodes.bytes();
   if (s.calm) bytes += s.calm->bytes();
-  for (const Lane& lane : s.lanes) bytes += lane.own.codes.bytes() + lane.own.parameters.bytes();
+  for (const Lane& lane : s.lanes) bytes += lane.own.bytes() + lane.lists.bytes() + lane.stack.bytes();
   return bytes;
 }
 
@@ -67,24 +68,34 @@ Failure Engine::State::failure(const Error& error, const CompiledRule* rule) con
   return fail(error.code, error.message + " " + stepText(steps) + where);
 }
 
-Failure Engine::State::tooMany(const char* what, std::size_t limit, const CompiledRule* rule) const {
+Failure Engine::State::tooMany(const char* what, std::size_t limit, const CompiledRule* rule) {
   return limitReached("the derivation would need more than " + std::to_string(limit) + " " + what + " " + stepText(steps), rule);
 }
 
-Failure Engine::State::limitReached(std::string message, const CompiledRule* rule) const {
-  const auto most = std::max_element(fired.begin(), fired.end());
+Failure Engine::State::limitReached(std::string message, const CompiledRule* rule) {
+  const auto mostMade = [&] { return std::max_element(made.begin(), made.end()); };
+  if (plain && rule == nullptr && (made.empty() || *mostMade() == 0)) survey();
   if (rule == nullptr) rule = lastRule;
-  if (most != fired.end() && *most > 0) rule = &program->main().productions.rules[static_cast<std::size_t>(most - fired.begin())];
-  if (rule != nullptr) message += "; the rule that was growing it is " + rule->name;
+  const auto most = mostMade();
+  const bool counted = most != made.end() && *most > 0;
+  if (counted || rule != nullptr)
+    message += "; the rule that was growing it is " + (counted ? program->rules[static_cast<std::size_t>(most - made.begin())].name : rule->name);
   return fail(ErrorCode::LimitReached, message + "; derive fewer steps or raise the limit");
 }
 
-Result<void> Engine::State::mayGoOn() const {
+Failure Engine::State::tooLate() {
+  return limitReached("the derivation took longer than its limit of " + shortest(options.limits.seconds) + " s, " + stepText(steps), nullptr);
+}
+
+Result<void> Engine::State::mayGoOn() {
   if (options.watch.cancelled()) return fail(ErrorCode::Cancelled, "the derivation was cancelled");
   if (!shared.late()) return {};
-  const std::string limit = std::to_string(static_cast<std::int64_t>(options.limits.seconds));
-  return fail(ErrorCode::LimitReached, "the derivation took longer than its limit of " + limit + " s, " + stepText(steps) +
-                                           "; derive fewer steps or raise the limit");
+  return tooLate();
+}
+
+std::size_t Engine::State::bytesLeft() const {
+  const std::size_t limit = options.limits.bytes, taken = string.size() + string.parameters().size() * sizeof(double) + string.identities().size() * sizeof(Identity);
+  return limit > taken ? limit - taken : 0;
 }
 
 void Engine::State::note(const std::string& text) {
@@ -116,6 +127,12 @@ Result<void> Engine::State::startInstance(Instance& instance) {
   return runHeader(system.start, instance, 1);
 }
 
+void Engine::State::exchange() {
+  string.codeBuffer().swap(spare.codes);
+  string.parameterBuffer().swap(spare.parameters);
+  string.identityBuffer().swap(spare.identities);
+}
+
 void Engine::State::notePeak(std::size_t more) { peak = std::max(peak, held(*this) + more); }
 
 // ---- Engine ----------------------------------------------------------------------------------------------------------
@@ -136,8 +153,8 @@ Result<std::shared_ptr<Engine>> Engine::create(std::shared_ptr<const Program> pr
   s.needs = needsOf(*s.program);
   s.walking = s.program->systems.size() > 1;
   s.needs.brackets = s.needs.brackets || s.walking;
-  s.fired.assign(s.program->main().productions.rules.size(), 0);
-  for (const System& system : s.program->systems) s.fired.resize(std::max(s.fired.size(), system.productions.rules.size()));
+  s.made.assign(s.program->rules.size(), 0);
+  s.identified = s.program->draws || s.options.identified;
   describeRules(s);
   s.plain = isPlain(s);
   if (s.plain) {
@@ -163,6 +180,10 @@ Result<void> Engine::start() {
   m.setInstance(&s.main, &main);
   m.setRandom(s.stream(Stream::Axiom, 0));
   s.string.codeBuffer().assign(main.axiomCodes);
+  if (s.identified) {
+    s.string.identityBuffer().setSize(main.axiomCodes.size());
+    writeChildren(s.string.identityBuffer().data(), 0, main.axiomKeys.data(), main.axiomKeys.size());
+  }
   for (const Term& term : main.axiomTerms) {
     const double value = m.value(term, nullptr);
     s.string.parameterBuffer().push(s.options.singlePrecision ? static_cast<double>(static_cast<float>(value)) : value);
@@ -191,20 +212,16 @@ Result<Engine::Outcome> Engine::step(StepTrace* trace) {
   }
   const System& main = s.program->main();
   if (auto done = s.runHeader(main.startEach, s.main, 2); !done) return done.failure();
-  std::fill(s.fired.begin(), s.fired.end(), 0);
+  std::fill(s.made.begin(), s.made.end(), 0);
   s.inPlace = false;
-  s.spare.codes.clear();
-  s.spare.parameters.clear();
+  s.spare.clear();
   const auto fired = s.plain && trace == nullptr ? s.plainStep() : s.generalStep(trace);
   if (!fired) return fired.failure();
   s.notePeak(0);
   if (held(s) > s.options.limits.bytes) return s.tooMany("bytes", s.options.limits.bytes, nullptr);
   const bool still = s.timeless && !s.drawsConditions && (*fired == 0 || (!s.inPlace && !s.drawsResults && sameArrays(s.string, s.spare)));
   if (still) return Outcome::Settled;
-  if (!s.inPlace) {
-    s.string.codeBuffer().swap(s.spare.codes);
-    s.string.parameterBuffer().swap(s.spare.parameters);
-  }
+  if (!s.inPlace) s.exchange();
   if (auto done = s.runHeader(main.endEach, s.main, 3); !done) return done.failure();
   Machine& m = s.machine();
   if (m.newSeed) s.random = Rng(*m.newSeed);
@@ -262,7 +279,11 @@ Result<void> Engine::finish() {
 
 Result<Image> Engine::imageOf(const ModuleString& string) const { return state_->makeImage(string); }
 
-ModuleString Engine::takeString() { return std::move(state_->string); }
+ModuleString Engine::takeString() {
+  // Of a finished string only a homomorphism that draws still asks who is who.
+  if (!state_->program->imageDraws && !state_->options.identified) state_->string.identityBuffer() = {};
+  return std::move(state_->string);
+}
 
 const ModuleString& Engine::string() const { return state_->string; }
 std::span<double> Engine::parameters() { return {state_->string.parameterBuffer().data(), state_->string.parameterBuffer().size()}; }

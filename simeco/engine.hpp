@@ -33,6 +33,7 @@ struct EngineOptions {
   Watch watch = {};
   int threads = 1;
   bool singlePrecision = false;
+  bool identified = false;                  ///< modules carry identities even where no rule draws (growth draws for organs)
   // Tests make these small, to compare all ways on short strings.
   bool generalWay = false;                  ///< always take the general way
   std::size_t modulesPerThread = 4096;      ///< fewer are not worth another thread

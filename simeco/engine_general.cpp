@@ -3,6 +3,7 @@
 
 #include "simeco/engine_state.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -14,7 +15,8 @@ namespace {
 class Pass {
  public:
   Pass(Engine::State& state, const ModuleString& old, StepTrace* trace)
-      : s_(state), program_(*state.program), machine_(state.machine()), trace_(trace), old_{old.codes(), old.parameters()} {
+      : s_(state), program_(*state.program), machine_(state.machine()), trace_(trace), old_{old.codes(), old.parameters(), old.identities()},
+        identified_(!old_.identities.empty()) {
     std::size_t frame = 1;
     for (const System& system : program_.systems)
       for (const RuleTable* table : {&system.productions, &system.decomposition, &system.homomorphism})
@@ -45,7 +47,17 @@ class Pass {
       if (!rewrite(at)) return false;
     }
     if (trace_ != nullptr) trace_->begin.push_back(static_cast<std::uint32_t>(out_->codes.size()));
-    return true;
+    return hasRoom(0, 0, nullptr);
+  }
+
+  /// Rewrites the beginning of the string for the sake of the counts of what each rule makes.
+  void survey(Arrays& out, std::size_t modules) {
+    surveying_ = true;
+    out_ = &out;
+    old_.codes = old_.codes.first(modules);
+    enter(nullptr);
+    for (std::size_t at = 0; at < modules;)
+      if (!rewrite(at)) return;
   }
 
   /// The homomorphism of the whole string into `out`, with the source of each module.
@@ -72,8 +84,10 @@ class Pass {
 
   /// From time to time: whether to go on at all.
   bool lookUp(std::size_t) {
-    constexpr std::size_t betweenLooks = 1 << 14;
-    if (++looks_ % betweenLooks != 0) return true;
+    constexpr std::size_t betweenLooks = 1 << 14, enoughLooks = 1 << 18;
+    ++looks_;
+    if (surveying_) return looks_ < enoughLooks;
+    if (looks_ % betweenLooks != 0) return true;
     return passOn(s_.mayGoOn());
   }
 
@@ -157,7 +171,7 @@ class Pass {
 
   void copyModule(std::size_t& at) {
     traced(1, StepTrace::copied, out_->codes.size());
-    put(old_.codes[at], old_.parameters.data() + parameter_);
+    put(old_.codes[at], old_.parameters.data() + parameter_, old_.who(at));
     advance(at, 1);
   }
 
@@ -213,7 +227,7 @@ class Pass {
   bool rewrite(std::size_t& at) {
     const RuleIndex& index = system_->productions.bySymbol[old_.codes[at]];
     if (index.all.empty()) return keep(at);
-    if (system_->stochastic || s_.drawsConditions) machine_.setRandom(s_.stream(Stream::Choice, static_cast<std::uint64_t>(s_.steps), at));
+    if (identified_) machine_.setRandom(s_.stream(Stream::Choice, static_cast<std::uint64_t>(s_.steps), old_.who(at)));
     return system_->stochastic ? rewriteByWeight(index, at) : rewriteByFirst(index, at);
   }
 
@@ -223,8 +237,7 @@ class Pass {
       return true;
     }
     const std::size_t first = out_->codes.size();
-    machine_.setRandom(s_.stream(Stream::Successor, static_cast<std::uint64_t>(s_.steps), at));
-    pushList({&old_.codes[at], 1}, {old_.parameters.data() + parameter_, program_.parameterCount[old_.codes[at]]}, 0);
+    pushModule(at);
     if (!emptyLists(system_->decomposition, at, at)) return false;
     traced(1, StepTrace::copied, first);
     advance(at, 1);
@@ -293,7 +306,7 @@ class Pass {
 
   bool fire(const CompiledRule& rule, std::size_t& at, double* locals) {
     ++fired_;
-    if (rule.random || !system_->decomposition.empty()) machine_.setRandom(s_.stream(Stream::Successor, static_cast<std::uint64_t>(s_.steps), at));
+    if (identified_) machine_.setRandom(s_.stream(Stream::Successor, static_cast<std::uint64_t>(s_.steps), old_.who(at)));
     if (!rule.after.empty()) machine_.run(rule.after, locals);
     if (machine_.trouble()) return inTrouble(rule);
     const CompiledSuccessor* successor = choose(rule, locals);
@@ -301,13 +314,12 @@ class Pass {
     const std::size_t first = out_->codes.size();
     const std::size_t consumed = rule.predecessor.size();
     if (system_->decomposition.empty()) {
-      if (!write(rule, *successor, locals, *out_)) return false;
+      if (!write(rule, *successor, locals, old_.who(at), *out_)) return false;
       noteVisits(first);
     } else {
-      if (!pushSuccessor(rule, *successor, locals, 0)) return false;
+      if (!pushSuccessor(rule, *successor, locals, old_.who(at), 0)) return false;
       if (!emptyLists(system_->decomposition, at, at + consumed - 1)) return false;
     }
-    s_.fired[rule.number] += out_->codes.size() - first;
     traced(consumed, static_cast<std::int32_t>(rule.number), first);
     advance(at, consumed);
     return true;
@@ -317,10 +329,16 @@ class Pass {
 
   [[nodiscard]] double stored(double value) const { return s_.options.singlePrecision ? static_cast<double>(static_cast<float>(value)) : value; }
 
-  /// Appends a successor with its parameters computed.
-  bool write(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, Arrays& to) {
+  /// Appends a successor with its parameters computed; `who` is its parent.
+  bool write(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, std::uint64_t who, Arrays& to) {
     const std::size_t codes = to.codes.size(), parameters = to.parameters.size();
-    if (codes + successor.codes.size() > s_.options.limits.modules) return stop(s_.tooMany("modules", s_.options.limits.modules, &rule));
+    s_.made[rule.id] += successor.codes.size();
+    if (!hasRoom(successor.codes.size(), successor.terms.size(), &rule)) return false;
+    if (identified_) {
+      to.identities.reserveMore(codes + successor.codes.size());
+      writeChildren(to.identities.data() + codes, who, successor.keys.data(), successor.keys.size());
+      to.identities.setSize(codes + successor.codes.size());
+    }
     to.codes.reserveMore(codes + successor.codes.size());
     to.parameters.reserveMore(parameters + successor.terms.size());
     for (std::size_t i = 0; i < successor.codes.size(); ++i) to.codes[codes + i] = successor.codes[i];
@@ -338,7 +356,17 @@ class Pass {
     for (std::size_t i = first; i < out_->codes.size(); ++i)
       if (out_->codes[i] == program_.enter) newVisits_.emplace_back().system = unknownSystem;
   }
-  void put(SymbolCode code, const double* parameters) {
+  /// Whether so much more fits into the limits.
+  bool hasRoom(std::size_t modules, std::size_t parameters, const CompiledRule* rule) {
+    const std::size_t all = out_->codes.size() + lists_.codes.size() + modules;
+    constexpr std::size_t enoughMade = 1 << 20;
+    if (surveying_) return all < enoughMade && parameters < enoughMade;
+    if (all > s_.options.limits.modules) return stop(s_.tooMany("modules", s_.options.limits.modules, rule));
+    const std::size_t bytes = out_->used() + lists_.used() + modules * (identified_ ? 1 + sizeof(Identity) : 1) + parameters * sizeof(double);
+    return bytes <= bytesLeft_ || stop(s_.tooMany("bytes", s_.options.limits.bytes, rule));
+  }
+  void put(SymbolCode code, const double* parameters, std::uint64_t who) {
+    if (identified_) out_->identities.push(identityOf(who));
     const std::size_t count = program_.parameterCount[code], used = out_->parameters.size();
     out_->codes.push(code);
     if (count == 0) return;
@@ -349,15 +377,18 @@ class Pass {
 
   // ---- decomposition and homomorphism: lists of modules, each looked up again ----------------------------------------
 
-  void pushList(std::span<const SymbolCode> codes, std::span<const double> parameters, int depth) {
-    const Cursor cursor{lists_.codes.size(), lists_.codes.size() + codes.size(), lists_.parameters.size(), lists_.codes.size(), lists_.parameters.size(), depth};
-    for (const SymbolCode code : codes) lists_.codes.push(code);
-    for (const double parameter : parameters) lists_.parameters.push(parameter);
+  /// A list of one: a module of the old string.
+  void pushModule(std::size_t at) {
+    const SymbolCode code = old_.codes[at];
+    const Cursor cursor{lists_.codes.size(), lists_.codes.size() + 1, lists_.parameters.size(), lists_.codes.size(), lists_.parameters.size(), 0};
+    lists_.codes.push(code);
+    if (identified_) lists_.identities.push(identityOf(old_.who(at)));
+    for (std::size_t i = 0; i < program_.parameterCount[code]; ++i) lists_.parameters.push(old_.parameters[parameter_ + i]);
     cursors_.push_back(cursor);
   }
-  bool pushSuccessor(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, int depth) {
+  bool pushSuccessor(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, std::uint64_t who, int depth) {
     const std::size_t codes = lists_.codes.size(), parameters = lists_.parameters.size();
-    if (!write(rule, successor, locals, lists_)) return false;
+    if (!write(rule, successor, locals, who, lists_)) return false;
     cursors_.push_back({codes, lists_.codes.size(), parameters, codes, parameters, depth});
     return true;
   }
@@ -370,6 +401,7 @@ class Pass {
       if (cursor.at == cursor.end) {
         lists_.codes.setSize(cursor.listBegin);
         lists_.parameters.setSize(cursor.parameterBegin);
+        if (identified_) lists_.identities.setSize(cursor.listBegin);
         cursors_.pop_back();
         continue;
       }
@@ -383,6 +415,7 @@ class Pass {
     const SymbolCode code = lists_.codes[cursor.at];
     const RuleIndex& index = table.bySymbol[code];
     if (!index.all.empty()) {
+      if (table.draws) machine_.setRandom(listStream(table, whoListed()));
       const std::span<const SymbolCode> codes = lists_.codes.span().subspan(cursor.at, cursor.end - cursor.at);
       for (const std::uint32_t number : candidates(index, lists_.parameters.data() + cursor.parameter)) {
         const CompiledRule& rule = table.rules[number];
@@ -403,18 +436,25 @@ class Pass {
   bool expand(const CompiledRule& rule) {
     Cursor& cursor = cursors_.back();
     const int depth = cursor.depth + 1;
+    const std::uint64_t who = whoListed();
     for (std::size_t i = 0; i < rule.predecessor.size(); ++i) cursor.parameter += program_.parameterCount[lists_.codes[cursor.at++]];
     if (!rule.after.empty()) machine_.run(rule.after, locals_.data());
     if (machine_.trouble()) return inTrouble(rule);
     ++fired_;
     const CompiledSuccessor* successor = choose(rule, locals_.data());
     if (successor == nullptr) return false;
-    return pushSuccessor(rule, *successor, locals_.data(), depth);
+    return pushSuccessor(rule, *successor, locals_.data(), who, depth);
+  }
+  [[nodiscard]] std::uint64_t whoListed() const { return identified_ ? whoIs(lists_.identities[cursors_.back().at]) : 0; }
+  /// The draws of a module that is decomposed or drawn: by its own identity, so none shifts those of the modules beside it.
+  [[nodiscard]] Rng listStream(const RuleTable& table, std::uint64_t who) const {
+    if (source_ != nullptr) return s_.stream(Stream::Homomorphism, table.seed.value_or(0), who);
+    return s_.stream(Stream::Decomposition, static_cast<std::uint64_t>(s_.steps), who);
   }
   bool putListed(SymbolCode code) {
     Cursor& cursor = cursors_.back();
-    if (out_->codes.size() >= s_.options.limits.modules) return stop(s_.tooMany("modules", s_.options.limits.modules, nullptr));
-    put(code, lists_.parameters.data() + cursor.parameter);
+    if (!hasRoom(1, program_.parameterCount[code], nullptr)) return false;
+    put(code, lists_.parameters.data() + cursor.parameter, whoListed());
     if (source_ != nullptr) source_->push_back(sourceNow_);
     if (source_ == nullptr && code == program_.enter) newVisits_.emplace_back().system = unknownSystem;
     cursor.parameter += program_.parameterCount[code];
@@ -427,7 +467,7 @@ class Pass {
     const RuleTable& table = system_->homomorphism;
     sourceNow_ = static_cast<std::uint32_t>(at);
     if (table.empty()) return drawAsItIs(at);
-    machine_.setRandom(s_.stream(Stream::Homomorphism, table.seed.value_or(0), at));
+    if (table.draws) machine_.setRandom(listStream(table, old_.who(at)));
     const RuleIndex& index = table.bySymbol[old_.codes[at]];
     if (table.maximumDepth > 0 && !index.all.empty()) {
       for (const std::uint32_t number : candidates(index, old_.parameters.data() + parameter_)) {
@@ -439,7 +479,7 @@ class Pass {
         if (machine_.trouble()) return inTrouble(rule);
         const CompiledSuccessor* successor = choose(rule, locals_.data());
         if (successor == nullptr) return false;
-        if (!pushSuccessor(rule, *successor, locals_.data(), 1)) return false;
+        if (!pushSuccessor(rule, *successor, locals_.data(), old_.who(at), 1)) return false;
         const std::size_t consumed = rule.predecessor.size();
         if (!emptyLists(table, at, at + consumed - 1)) return false;
         advance(at, consumed);
@@ -449,8 +489,8 @@ class Pass {
     return drawAsItIs(at);
   }
   bool drawAsItIs(std::size_t& at) {
-    if (out_->codes.size() >= s_.options.limits.modules) return stop(s_.tooMany("modules", s_.options.limits.modules, nullptr));
-    put(old_.codes[at], old_.parameters.data() + parameter_);
+    if (!hasRoom(1, program_.parameterCount[old_.codes[at]], nullptr)) return false;
+    put(old_.codes[at], old_.parameters.data() + parameter_, old_.who(at));
     source_->push_back(sourceNow_);
     advance(at, 1);
     return true;
@@ -487,6 +527,9 @@ class Pass {
   Machine& machine_;
   StepTrace* trace_;
   OldString old_;
+  bool identified_;
+  bool surveying_ = false;
+  std::size_t bytesLeft_ = s_.bytesLeft();
   const System* system_ = nullptr;
   std::optional<Matcher> matcher_;
   Arrays* out_ = nullptr;
@@ -522,6 +565,15 @@ Result<std::size_t> Engine::State::generalStep(StepTrace* trace) {
   return pass.fired();
 }
 
+void Engine::State::survey() {
+  Arrays out;
+  out.parameters.reserve(1);
+  const std::size_t modules = std::min<std::size_t>(string.size(), 1 << 16);
+  around.read(*program, program->main().ignored, needs, string.codes().first(modules));
+  Pass(*this, string, nullptr).survey(out, modules);
+  machine().clearTrouble();
+}
+
 Result<void> Engine::State::findVisits() {
   Pass pass(*this, string, nullptr);
   if (!pass.nameVisits(string.codes(), string.parameters())) return pass.failure();
@@ -532,6 +584,7 @@ Result<void> Engine::State::findVisits() {
 Result<Image> Engine::State::makeImage(const ModuleString& of) {
   Image image{ModuleString(program->symbols), {}};
   Arrays out;
+  std::fill(made.begin(), made.end(), 0);
   around.read(*program, program->main().ignored, needs, of.codes());
   const Instance mainBefore = main;
   const std::vector<Instance> visitsBefore = visits;

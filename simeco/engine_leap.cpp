@@ -236,7 +236,7 @@ class Leap {
 }  // namespace
 
 bool Engine::State::canLeap() const {
-  return plain && plans->leaps && timeless;
+  return plain && plans->leaps && timeless && !identified;
 }
 
 Result<Engine::Outcome> Engine::State::leap(std::int64_t count, std::vector<std::size_t>& modulesPerStep) { return Leap(*this, count).run(modulesPerStep); }

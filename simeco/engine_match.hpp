@@ -5,6 +5,7 @@
 /// Contexts are read from the old string: with the tables of Surroundings where the rule says nothing about brackets, else by
 /// walking (rings, contexts that name brackets or `=`, sub-L-systems with other ignored letters), which skips a branch in one step.
 
+#include "simeco/engine_identity.hpp"
 #include "simeco/engine_surroundings.hpp"
 
 #include <span>
@@ -15,6 +16,9 @@ namespace axil::simeco {
 struct OldString {
   std::span<const SymbolCode> codes;
   std::span<const double> parameters;
+  std::span<const Identity> identities;  ///< none where nothing draws
+
+  [[nodiscard]] std::uint64_t who(std::size_t module) const { return module < identities.size() ? whoIs(identities[module]) : 0; }
 };
 
 class Matcher {

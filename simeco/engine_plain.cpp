@@ -32,6 +32,7 @@ struct Pen {
   const double* in = nullptr;   ///< parameters of the module at hand
   SymbolCode* to = nullptr;
   double* numbers = nullptr;
+  Identity* who = nullptr;      ///< only where something draws
 };
 
 /// Who stands to the left of a part's first module, found by walking from there, further with every bracket that closes.
@@ -104,7 +105,8 @@ class PartPass {
   PartPass(Engine::State& state, Machine& machine, Lane& lane)
       : s_(state), plans_(*state.plans), program_(*state.program), machine_(machine), lane_(lane), old_(state.oldString()),
         matcher_(program_, program_.main(), old_, state.around, false), choices_(state.stream(Stream::Choice)), successors_(state.stream(Stream::Successor)),
-        step_(static_cast<std::uint64_t>(state.steps)), stochastic_(program_.main().stochastic), withLottery_(stochastic_), finite_(program_.language == Language::SimEco),
+        decompositions_(state.stream(Stream::Decomposition)),
+        step_(static_cast<std::uint64_t>(state.steps)), stochastic_(program_.main().stochastic), identified_(state.identified), finite_(program_.language == Language::SimEco),
         single_(state.options.singlePrecision) {
     std::size_t frame = 1;
     for (const RuleTable* table : {&program_.main().productions, &program_.main().decomposition})
@@ -118,42 +120,42 @@ class PartPass {
     lane_.fired = 0;
     lane_.depthReached = false;
     lane_.cursors.clear();
-    lane_.lists.codes.clear();
-    lane_.lists.parameters.clear();
-    lane_.out->codes.clear();
-    lane_.out->parameters.clear();
+    lane_.lists.clear();
+    lane_.out->clear();
     AXIL_ASSERT(old_.parameters.data() != nullptr, "two numbers can always be read, even where there are none");
     in_ = old_.parameters.data() + parameter;
     rule_ = nullptr;
     if (plans_.rightCodes) readRightCodes(begin, end);
     if (plans_.bytes)
-      withLottery_ ? byteNeighbours<true>(begin, end) : byteNeighbours<false>(begin, end);
+      identified_ ? byteNeighbours<true>(begin, end) : byteNeighbours<false>(begin, end);
+    else if (identified_)
+      withParameters<true, true>(begin, end);
     else
-      plans_.parameters ? withParameters<true>(begin, end) : withParameters<false>(begin, end);
+      plans_.parameters ? withParameters<true, false>(begin, end) : withParameters<false, false>(begin, end);
     lane_.lastRule = rule_;
   }
 
  private:
-  template <bool lottery>
+  template <bool identified>
   void byteNeighbours(std::size_t begin, std::size_t end) {
     if (plans_.leftCodes)
-      plans_.rightCodes ? byteBlocks<lottery, true, true>(begin, end) : byteBlocks<lottery, true, false>(begin, end);
+      plans_.rightCodes ? byteBlocks<identified, true, true>(begin, end) : byteBlocks<identified, true, false>(begin, end);
     else
-      plans_.rightCodes ? byteBlocks<lottery, false, true>(begin, end) : byteBlocks<lottery, false, false>(begin, end);
+      plans_.rightCodes ? byteBlocks<identified, false, true>(begin, end) : byteBlocks<identified, false, false>(begin, end);
   }
-  template <bool lottery, bool withLeft, bool withRight>
+  template <bool identified, bool withLeft, bool withRight>
   void byteBlocks(std::size_t begin, std::size_t end) {
     eachBlock(begin, end, [this](std::size_t at, std::size_t to, SymbolCode last, LeftFringe& fringe) {
-      return rewriteBytes<lottery, withLeft, withRight>(at, to, last, fringe);
+      return rewriteBytes<identified, withLeft, withRight>(at, to, last, fringe);
     });
   }
 
-  template <bool parameters>
+  template <bool parameters, bool identified>
   void withParameters(std::size_t begin, std::size_t end) {
     if (plans_.leftCodes)
-      plans_.rightCodes ? blocks<parameters, true, true>(begin, end) : blocks<parameters, true, false>(begin, end);
+      plans_.rightCodes ? blocks<parameters, identified, true, true>(begin, end) : blocks<parameters, identified, true, false>(begin, end);
     else
-      plans_.rightCodes ? blocks<parameters, false, true>(begin, end) : blocks<parameters, false, false>(begin, end);
+      plans_.rightCodes ? blocks<parameters, identified, false, true>(begin, end) : blocks<parameters, identified, false, false>(begin, end);
   }
 
   void readRightCodes(std::size_t begin, std::size_t end) {
@@ -184,10 +186,10 @@ class PartPass {
     }
   }
 
-  template <bool withParameters, bool withLeft, bool withRight>
+  template <bool withParameters, bool identified, bool withLeft, bool withRight>
   void blocks(std::size_t begin, std::size_t end) {
     eachBlock(begin, end, [this](std::size_t at, std::size_t to, SymbolCode last, LeftFringe& fringe) {
-      return rewrite<withParameters, withLeft, withRight>(at, to, last, fringe);
+      return rewrite<withParameters, identified, withLeft, withRight>(at, to, last, fringe);
     });
   }
 
@@ -195,35 +197,48 @@ class PartPass {
   template <class Rewrite>
   void eachBlock(std::size_t begin, std::size_t end, Rewrite rewriteBlock) {
     constexpr std::size_t blockModules = 1 << 14;
-    const std::size_t block = std::clamp<std::size_t>(blockModules / std::max(plans_.longest, plans_.most), 1, 2048);
+    const std::size_t block = std::clamp<std::size_t>(blockModules / std::max(plans_.longest, plans_.most), 1, std::clamp<std::size_t>(end - begin, 1, 2048));
     room_ = block;
+    const std::size_t bytesLeft = s_.bytesLeft();
     LeftFringe fringe(plans_, old_.codes, begin);
     lane_.stack.clear();
     SymbolCode last = plans_.leftCodes ? fringe.nearest() : SymbolCode{0};
     std::size_t looks = 0;
-    for (std::size_t at = begin; at < end && !lane_.error; at += block) {
+    std::size_t before = 0;
+    for (std::size_t at = begin; at < end && !lane_.ended(); at += block) {
       const std::size_t to = std::min(end, at + block);
       Arrays& out = *lane_.out;
       out.codes.reserveMore(out.codes.size() + block * plans_.longest);
       out.parameters.reserveMore(out.parameters.size() + block * plans_.most);
+      if (identified_) out.identities.reserveMore(out.codes.capacity());
       last = rewriteBlock(at, to, last, fringe);
-      if (!lane_.error && out.codes.size() > s_.options.limits.modules) lane_.error = s_.tooMany("modules", s_.options.limits.modules, rule_).error;
+      if (lane_.ended()) return;
+      if (out.codes.size() > s_.options.limits.modules) lane_.limit = Lane::Limit::Modules;
+      const std::size_t now = out.used();
+      if (s_.written.fetch_add(now - before, std::memory_order_relaxed) + (now - before) > bytesLeft) lane_.limit = Lane::Limit::Bytes;
+      before = now;
       constexpr std::size_t betweenLooks = 64;
-      if (++looks % betweenLooks != 0 || lane_.error) continue;
-      if (auto go = s_.mayGoOn(); !go) lane_.error = go.error();
+      if (++looks % betweenLooks == 0) look();
     }
+  }
+  /// Whether to go on at all.
+  void look() {
+    if (s_.options.watch.cancelled() || s_.shared.late()) lane_.limit = Lane::Limit::Time;
   }
 
   /// Without parameters every module is replaced by an entry of a table, copied whole; the only branches are brackets.
-  template <bool lottery, bool withLeft, bool withRight>
+  template <bool identified, bool withLeft, bool withRight>
   SymbolCode rewriteBytes(std::size_t begin, std::size_t end, SymbolCode last, LeftFringe& fringe) {
     const SymbolCode* const codes = old_.codes.data();
     const SymbolCode* const rights = s_.rightCodes.data();
     const ByteSymbol* const symbols = plans_.byteSymbols.data();
     const ByteEntry* const entries = plans_.entries.data();
+    const std::uint64_t* const* const keys = plans_.entryKeys.data();
     const Plan* const plans = plans_.bySymbol.data();
     const Rng choices = choices_;
     const std::uint64_t step = step_;
+    const Identity* const who = old_.identities.data();
+    Identity* born = identified ? lane_.out->identities.data() + lane_.out->codes.size() : nullptr;
     SymbolCode* to = lane_.out->codes.data() + lane_.out->codes.size();
     std::size_t fired = 0;
     const ByteEntry* fires = nullptr;
@@ -235,10 +250,17 @@ class PartPass {
       if constexpr (!withLeft && withRight) entry += plans_.codes * symbol.leftStep;
       if constexpr (withRight) entry += std::size_t{rights[at]} * symbol.rightStep;
       if constexpr (withLeft && !withRight) entry += plans_.codes * symbol.rightStep;
-      if constexpr (lottery) {
-        if (symbol.drawn) entry += ticket(plans[code], choices.split(step, at).uniform());
+      if constexpr (identified) {
+        if (symbol.drawn) entry += ticket(plans[code], choices.split(step, whoIs(who[at])).uniform());
       }
       const ByteEntry& made = entries[entry];
+      if constexpr (identified) {
+        if (made.fires != 0)
+          writeChildren(born, whoIs(who[at]), keys[entry], made.length);
+        else
+          *born = who[at];
+        born += made.length;
+      }
       std::memcpy(to, made.codes.data(), made.codes.size());
       if (made.longer != nullptr) [[unlikely]] {
         std::memcpy(to, made.longer->successor->codes.data(), made.length);
@@ -256,6 +278,7 @@ class PartPass {
     if (fires != nullptr) rule_ = fires->longer->rule;
     lane_.fired += fired;
     lane_.out->codes.setSize(static_cast<std::size_t>(to - lane_.out->codes.data()));
+    if constexpr (identified) lane_.out->identities.setSize(lane_.out->codes.size());
     return last;
   }
   /// As `chosen`, without a branch that chance would take.
@@ -271,7 +294,7 @@ class PartPass {
     return i;
   }
 
-  template <bool withParameters, bool withLeft, bool withRight>
+  template <bool withParameters, bool identified, bool withLeft, bool withRight>
   SymbolCode rewrite(std::size_t begin, std::size_t end, SymbolCode last, LeftFringe& fringe) {
     const SymbolCode* const codes = old_.codes.data();
     const SymbolCode* const rights = s_.rightCodes.data();
@@ -279,7 +302,8 @@ class PartPass {
     const Plan* const plans = plans_.bySymbol.data();
     const CandidateList* const lists = plans_.lists.data();
     const std::size_t width = plans_.codes + 1;
-    Pen pen{in_, lane_.out->codes.data() + lane_.out->codes.size(), lane_.out->parameters.data() + lane_.out->parameters.size()};
+    Pen pen{in_, lane_.out->codes.data() + lane_.out->codes.size(), lane_.out->parameters.data() + lane_.out->parameters.size(),
+            identified ? lane_.out->identities.data() + lane_.out->codes.size() : nullptr};
     std::size_t fired = 0;
     const QuickSuccessor* chosen = nullptr;
     bool fine = true;
@@ -289,7 +313,7 @@ class PartPass {
       switch (hot.kind) {
         case Plan::Kind::Copy:
           if constexpr (withParameters)
-            copy(pen, code, hot.parameters);
+            copy<identified>(pen, code, hot.parameters, at);
           else
             *pen.to++ = code;
           break;
@@ -299,38 +323,38 @@ class PartPass {
           pen = pen_;
           break;
         case Plan::Kind::Direct:
-          fine = put(pen, *plans[code].direct, at);
+          fine = put<identified>(pen, *plans[code].direct, at);
           chosen = plans[code].direct;
           ++fired;
           break;
         case Plan::Kind::Guarded: {
           const QuickSuccessor* const holding = firstThatHolds(plans[code], pen.in, fine);
           if (holding == nullptr) {
-            fine = fine && keepOrCopy(pen, hot, code, at);
+            fine = fine && keepOrCopy<identified>(pen, hot, code, at);
           } else {
-            fine = put(pen, *holding, at);
+            fine = put<identified>(pen, *holding, at);
             chosen = holding;
             ++fired;
           }
           break;
         }
         case Plan::Kind::Lottery:
-          fine = put(pen, *plans[code].choices[drawn(plans[code], at)], at);
+          fine = put<identified>(pen, *plans[code].choices[drawn(plans[code], at)], at);
           ++fired;
           break;
         case Plan::Kind::Neighbours: {
           const std::size_t left = withLeft ? last : plans_.codes, right = withRight ? rights[at] : plans_.codes;
           const CandidateList& list = lists[plans[code].table[left * width + right]];
           if (list.outright != nullptr) {
-            fine = put(pen, *list.outright, at);
+            fine = put<identified>(pen, *list.outright, at);
             ++fired;
           } else if (list.rules.empty()) {
-            fine = keepOrCopy(pen, hot, code, at);
+            fine = keepOrCopy<identified>(pen, hot, code, at);
           } else {
             pen_ = pen;
             fired += tryRules(list.rules, [](const CompiledRule* rule) { return rule; }, code, at, hot.parameters);
             pen = pen_;
-            fine = !lane_.error;
+            fine = !lane_.ended();
           }
           break;
         }
@@ -338,7 +362,7 @@ class PartPass {
           pen_ = pen;
           fired += tryAny(plans[code], code, at, hot.parameters);
           pen = pen_;
-          fine = !lane_.error;
+          fine = !lane_.ended();
           break;
         }
       }
@@ -350,11 +374,14 @@ class PartPass {
     lane_.fired += fired;
     lane_.out->codes.setSize(static_cast<std::size_t>(pen.to - lane_.out->codes.data()));
     lane_.out->parameters.setSize(static_cast<std::size_t>(pen.numbers - lane_.out->parameters.data()));
+    if constexpr (identified) lane_.out->identities.setSize(lane_.out->codes.size());
     return last;
   }
 
-  static void copy(Pen& pen, SymbolCode code, std::size_t parameters) {
+  template <bool identified>
+  void copy(Pen& pen, SymbolCode code, std::size_t parameters, std::size_t at) const {
     *pen.to++ = code;
+    if constexpr (identified) *pen.who++ = old_.identities[at];
     // Nearly all modules have at most two parameters; there is always room for two.
     std::memcpy(pen.numbers, pen.in, 2 * sizeof(double));
     for (std::size_t i = 2; i < parameters; ++i) pen.numbers[i] = pen.in[i];
@@ -362,10 +389,15 @@ class PartPass {
   }
 
   /// Writes a successor whose parameters depend on the module's own at most.
+  template <bool identified>
   bool put(Pen& pen, const QuickSuccessor& successor, std::size_t at) {
     if (!successor.quick || single_ || finite_) return putSlowly(pen, successor, at);
     copyCodes(pen.to, successor);
     pen.to += successor.length;
+    if constexpr (identified) {
+      writeChildren(pen.who, old_.who(at), successor.keys, successor.length);
+      pen.who += successor.length;
+    }
     const QuickTerm* const terms = successor.terms.data();
     for (std::uint32_t i = 0; i < successor.values; ++i) {
       const QuickTerm& term = terms[i];
@@ -376,16 +408,17 @@ class PartPass {
     return true;
   }
   bool putSlowly(Pen& pen, const QuickSuccessor& successor, std::size_t at) {
-    if (successor.random || plans_.decomposesByChance) machine_.setRandom(successors_.split(step_, at));
+    if (successor.random) machine_.setRandom(successors_.split(step_, old_.who(at)));
     pen_ = pen;
     const bool fine = writeSuccessor(*successor.rule, *successor.successor, const_cast<double*>(pen.in), at);
     pen = pen_;
     return fine;
   }
   /// A module that no production rewrites: copied, or decomposed.
+  template <bool identified>
   bool keepOrCopy(Pen& pen, Hot hot, SymbolCode code, std::size_t at) {
     if (!hot.decomposes) {
-      copy(pen, code, hot.parameters);
+      copy<identified>(pen, code, hot.parameters, at);
       return true;
     }
     pen_ = pen;
@@ -456,16 +489,20 @@ class PartPass {
   }
   bool writeSuccessor(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, std::size_t at) {
     rule_ = &rule;
-    if (plans_.decomposes && decomposes(successor)) return list(rule, successor, locals, 0) && decompose(at);
+    if (plans_.decomposes && decomposes(successor)) return list(rule, successor, locals, old_.who(at), 0) && decompose(at);
     const std::size_t length = successor.codes.size();
     const SymbolCode* const codes = successor.codes.data();
     for (std::size_t i = 0; i < length; ++i) pen_.to[i] = codes[i];
     pen_.to += length;
+    if (identified_) {
+      writeChildren(pen_.who, old_.who(at), successor.keys.data(), length);
+      pen_.who += length;
+    }
     return successor.terms.empty() || compute(rule, successor, locals);
   }
   /// A rule with one successor.
   bool write(const CompiledRule& rule, double* locals, std::size_t at) {
-    if (rule.random || plans_.decomposesByChance) machine_.setRandom(successors_.split(step_, at));
+    if (rule.random) machine_.setRandom(successors_.split(step_, old_.who(at)));
     return writeSuccessor(rule, rule.successors.front(), locals, at);
   }
 
@@ -476,9 +513,9 @@ class PartPass {
   }
   /// A module without production: a list of one.
   bool keep(SymbolCode code, std::size_t parameters, std::size_t at) {
-    if (plans_.decomposesByChance) machine_.setRandom(successors_.split(step_, at));
     Arrays& lists = lane_.lists;
     lane_.cursors.push_back({0, 1, 0, 0, 0, 0});
+    if (identified_) lists.identities.push(old_.identities[at]);
     lists.codes.reserveMore(1);
     lists.codes[0] = code;
     lists.codes.setSize(1);
@@ -488,10 +525,17 @@ class PartPass {
     return decompose(at);
   }
   /// Puts a successor on top of the lists.
-  bool list(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, int depth) {
+  bool list(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, std::uint64_t who, int depth) {
     Arrays& lists = lane_.lists;
     const std::size_t codes = lists.codes.size(), numbers = lists.parameters.size();
-    if (codes + successor.codes.size() > s_.options.limits.modules) return tooMany(rule);
+    rule_ = &rule;
+    if (codes + successor.codes.size() > s_.options.limits.modules) return met(Lane::Limit::Modules);
+    if (lists.used() > s_.bytesLeft()) return met(Lane::Limit::Bytes);
+    if (identified_) {
+      lists.identities.reserveMore(codes + successor.codes.size());
+      writeChildren(lists.identities.data() + codes, who, successor.keys.data(), successor.keys.size());
+      lists.identities.setSize(codes + successor.codes.size());
+    }
     lists.codes.reserveMore(codes + successor.codes.size());
     lists.parameters.reserveMore(numbers + successor.terms.size() + 1);
     for (std::size_t i = 0; i < successor.codes.size(); ++i) lists.codes[codes + i] = successor.codes[i];
@@ -504,8 +548,8 @@ class PartPass {
     lane_.cursors.push_back({codes, lists.codes.size(), numbers, codes, numbers, depth});
     return fine;
   }
-  bool tooMany(const CompiledRule& rule) {
-    lane_.error = s_.tooMany("modules", s_.options.limits.modules, &rule).error;
+  bool met(Lane::Limit limit) {
+    lane_.limit = limit;
     return false;
   }
   /// Room for `modules` with `numbers` parameters here, and for the rest of the block as it was promised.
@@ -520,6 +564,10 @@ class PartPass {
     out.parameters.reserveMore(numbersThen);
     pen_.to = out.codes.data() + codesNow;
     pen_.numbers = out.parameters.data() + numbersNow;
+    if (!identified_) return;
+    out.identities.setSize(codesNow);
+    out.identities.reserveMore(out.codes.capacity());
+    pen_.who = out.identities.data() + codesNow;
   }
   /// Copies the modules at the cursor up to the first that decomposition rules know.
   void copyListed(Cursor& cursor) {
@@ -539,6 +587,10 @@ class PartPass {
       numbers += count;
       from += count;
     }
+    if (identified_) {
+      std::copy(lists.identities.data() + cursor.at, lists.identities.data() + at, pen_.who);
+      pen_.who += at - cursor.at;
+    }
     cursor.at = at;
     cursor.parameter = static_cast<std::size_t>(from - lists.parameters.data());
     pen_.to = to;
@@ -549,6 +601,7 @@ class PartPass {
     const std::size_t count = plans_.hot[code].parameters;
     makeRoom(1, count);
     *pen_.to++ = code;
+    if (identified_) *pen_.who++ = lane_.lists.identities[cursor.at];
     copyNumbers(pen_.numbers, lane_.lists.parameters.data() + cursor.parameter, count);
     pen_.numbers += count;
     cursor.parameter += count;
@@ -556,11 +609,12 @@ class PartPass {
   }
   bool mayGoOnListing() {
     constexpr std::size_t betweenLooks = 1 << 14;
-    if (++listed_ % betweenLooks == 0)
-      if (auto go = s_.mayGoOn(); !go) lane_.error = go.error();
-    if (lane_.error) return false;
+    if (++listed_ % betweenLooks == 0) look();
+    if (lane_.ended()) return false;
     const auto made = static_cast<std::size_t>(pen_.to - lane_.out->codes.data());
-    return made <= s_.options.limits.modules || tooMany(rule_ == nullptr ? program_.main().decomposition.rules.front() : *rule_);
+    const auto numbers = static_cast<std::size_t>(pen_.numbers - lane_.out->parameters.data());
+    if (made + numbers * sizeof(double) > s_.bytesLeft()) return met(Lane::Limit::Bytes);
+    return made <= s_.options.limits.modules || met(Lane::Limit::Modules);
   }
   bool decompose(std::size_t at) {
     const RuleTable& table = program_.main().decomposition;
@@ -571,12 +625,13 @@ class PartPass {
       if (cursor.at == cursor.end) {
         lane_.lists.codes.setSize(cursor.listBegin);
         lane_.lists.parameters.setSize(cursor.parameterBegin);
+        if (identified_) lane_.lists.identities.setSize(cursor.listBegin);
         lane_.cursors.pop_back();
         continue;
       }
       const std::size_t count = plans_.hot[lane_.lists.codes[cursor.at]].parameters;
       const CompiledRule* rule = decomposing(table, cursor, count, at);
-      if (lane_.error) return false;
+      if (lane_.ended()) return false;
       if (rule == nullptr)
         keepListed(cursor);
       else if (!expand(*rule, count))
@@ -587,6 +642,7 @@ class PartPass {
   /// The decomposition rule that applies to the module at the cursor; its parameters are in the lane's locals then.
   const CompiledRule* decomposing(const RuleTable& table, const Cursor& cursor, std::size_t count, std::size_t at) {
     const double* const parameters = lane_.lists.parameters.data() + cursor.parameter;
+    if (table.draws) machine_.setRandom(decompositions_.split(step_, whoIs(lane_.lists.identities[cursor.at])));
     for (const std::uint32_t number : candidates(table.bySymbol[lane_.lists.codes[cursor.at]], parameters)) {
       const CompiledRule& rule = table.rules[number];
       double* const locals = lane_.locals.data();
@@ -603,11 +659,12 @@ class PartPass {
   bool expand(const CompiledRule& rule, std::size_t count) {
     Cursor& cursor = lane_.cursors.back();
     const int depth = cursor.depth + 1;
+    const std::uint64_t who = identified_ ? whoIs(lane_.lists.identities[cursor.at]) : 0;
     cursor.parameter += count;
     ++cursor.at;
     ++lane_.fired;
     const CompiledSuccessor* successor = choose(rule, lane_.locals.data());
-    return successor != nullptr && list(rule, *successor, lane_.locals.data(), depth);
+    return successor != nullptr && list(rule, *successor, lane_.locals.data(), who, depth);
   }
 
   /// One of a rule's successors, by weight.
@@ -625,7 +682,7 @@ class PartPass {
   }
   bool fire(const CompiledRule& rule, double* locals, std::size_t at) {
     if (rule.successors.size() == 1) return write(rule, locals, at);
-    machine_.setRandom(successors_.split(step_, at));
+    machine_.setRandom(successors_.split(step_, old_.who(at)));
     const CompiledSuccessor* successor = choose(rule, locals);
     return successor != nullptr && writeSuccessor(rule, *successor, locals, at);
   }
@@ -640,7 +697,7 @@ class PartPass {
     while (i + 1 < weights.size() && left >= weights[i]) left -= weights[i++];
     return i;
   }
-  std::size_t drawn(const Plan& plan, std::size_t at) const { return chosen(plan.weights, plan.sum * choices_.split(step_, at).uniform()); }
+  std::size_t drawn(const Plan& plan, std::size_t at) const { return chosen(plan.weights, plan.sum * choices_.split(step_, old_.who(at)).uniform()); }
 
   /// Whether a rule applies to the module at hand; `locals` is where its parameters are then: the string itself, where the rule
   /// has no contexts with parameters.
@@ -662,7 +719,7 @@ class PartPass {
   template <class Rules, class RuleOf>
   std::size_t tryRules(const Rules& rules, RuleOf ruleOf, SymbolCode code, std::size_t at, std::size_t parameters) {
     matched_ = std::is_same_v<Rules, std::vector<const CompiledRule*>> ? Matched::ByTable : Matched::NotYet;
-    if (s_.drawsConditions) machine_.setRandom(choices_.split(step_, at));
+    if (s_.drawsConditions) machine_.setRandom(choices_.split(step_, old_.who(at)));
     for (const auto& candidate : rules) {
       const CompiledRule& rule = *ruleOf(candidate);
       double* locals = nullptr;
@@ -670,15 +727,14 @@ class PartPass {
         fire(rule, locals, at);
         return 1;
       }
-      if (lane_.error) return 0;
+      if (lane_.ended()) return 0;
     }
-    keepOrCopy(pen_, plans_.hot[code], code, at);
-    return 0;
+    return keepOrCopyAny(code, at);
   }
 
   std::size_t tryByWeight(const std::vector<std::uint32_t>& numbers, SymbolCode code, std::size_t at, std::size_t parameters) {
     matched_ = Matched::NotYet;
-    machine_.setRandom(choices_.split(step_, at));
+    machine_.setRandom(choices_.split(step_, old_.who(at)));
     if (lane_.frames.size() < numbers.size() * frame_) lane_.frames.resize(numbers.size() * frame_);
     lane_.applicable.clear();
     weights_.clear();
@@ -692,15 +748,18 @@ class PartPass {
         sum += weights_.back();
         lane_.applicable.emplace_back(&rule, locals);
       }
-      if (lane_.error) return 0;
+      if (lane_.ended()) return 0;
     }
-    if (weights_.empty()) {
-      keepOrCopy(pen_, plans_.hot[code], code, at);
-      return 0;
-    }
+    if (weights_.empty()) return keepOrCopyAny(code, at);
     const auto& [rule, locals] = lane_.applicable[chosen(weights_, sum * machine_.rng().uniform())];
     write(*rule, locals, at);
     return 1;
+  }
+
+  /// No rule applied: none fired.
+  std::size_t keepOrCopyAny(SymbolCode code, std::size_t at) {
+    identified_ ? keepOrCopy<true>(pen_, plans_.hot[code], code, at) : keepOrCopy<false>(pen_, plans_.hot[code], code, at);
+    return 0;
   }
 
   enum class Matched { NotYet, ByTable };
@@ -712,9 +771,9 @@ class PartPass {
   Lane& lane_;
   OldString old_;
   Matcher matcher_;
-  Rng choices_, successors_;
+  Rng choices_, successors_, decompositions_;
   std::uint64_t step_;
-  bool stochastic_, withLottery_, finite_, single_;
+  bool stochastic_, identified_, finite_, single_;
   Matched matched_ = Matched::NotYet;
   const CompiledRule* rule_ = nullptr;  ///< the last one that wrote; for messages
   std::size_t frame_ = 1;
@@ -757,12 +816,14 @@ void joinLanes(Engine::State& s, int threads) {
   }
   s.spare.codes.setSize(codes.back());
   s.spare.parameters.setSize(parameters.back());
+  if (s.identified) s.spare.identities.setSize(codes.back());
   const auto join = [&](int thread) {
     if (thread == 0) return;
     const Arrays& own = s.lanes[static_cast<std::size_t>(thread)].own;
     const auto before = static_cast<std::size_t>(thread - 1);
     if (own.codes.size() > 0) std::memcpy(s.spare.codes.data() + codes[before], own.codes.data(), own.codes.size());
     if (own.parameters.size() > 0) std::memcpy(s.spare.parameters.data() + parameters[before], own.parameters.data(), own.parameters.size() * sizeof(double));
+    if (own.identities.size() > 0) std::memcpy(s.spare.identities.data() + codes[before], own.identities.data(), own.identities.size() * sizeof(Identity));
   };
   constexpr std::size_t small = 1 << 18;
   if (threads > 2 && codes.back() + 8 * parameters.back() > small) return s.workers->each(join);
@@ -773,7 +834,7 @@ void joinLanes(Engine::State& s, int threads) {
 
 Result<std::size_t> Engine::State::plainStep() {
   const std::size_t size = string.size();
-  if (timeless && calm->worthTrying(size)) {
+  if (timeless && !identified && calm->worthTrying(size)) {
     if (const auto changed = calm->step(string, machine(), options.singlePrecision)) {
       inPlace = true;
       if (calm->lastRule() != nullptr) lastRule = calm->lastRule();
@@ -789,20 +850,28 @@ Result<std::size_t> Engine::State::plainStep() {
     Lane& lane = lanes[t];
     lane.out = thread == 0 ? &spare : &lane.own;
     lane.error.reset();
-    lane.out->codes.clear();
-    lane.out->parameters.clear();
+    lane.limit = Lane::Limit::None;
+    lane.out->clear();
     // Room for as much as the last step's growth promises: the first lane writes where all lanes are put together.
     const std::size_t share = thread == 0 ? 1 : n;
     lane.out->codes.reserve(static_cast<std::size_t>(grownCodes * static_cast<double>(size)) / share);
+    if (identified) lane.out->identities.reserve(lane.out->codes.capacity());
     lane.out->parameters.reserve(static_cast<std::size_t>(grownNumbers * static_cast<double>(size)) / share);
     const std::size_t begin = size * t / n, end = size * (t + 1) / n;
     PartPass(*this, machines[t], lane).run(begin, end, parametersBefore(*this, begin));
   };
   threads == 1 ? part(0) : workers->each(part);
+  written = 0;
   std::size_t fired_ = 0;
   for (int i = 0; i < threads; ++i) {
     const Lane& lane = lanes[static_cast<std::size_t>(i)];
     if (lane.error) return fail(*lane.error);
+    if (lane.limit == Lane::Limit::Modules) return tooMany("modules", options.limits.modules, nullptr);
+    if (lane.limit == Lane::Limit::Bytes) return tooMany("bytes", options.limits.bytes, nullptr);
+    if (lane.limit == Lane::Limit::Time) {
+      if (options.watch.cancelled()) return fail(ErrorCode::Cancelled, "the derivation was cancelled");
+      return tooLate();
+    }
     fired_ += lane.fired;
     if (lane.lastRule != nullptr) lastRule = lane.lastRule;
     if (lane.depthReached) note("the maximum depth of the decomposition kept rules from being applied");

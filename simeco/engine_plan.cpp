@@ -97,6 +97,7 @@ class Planner {
       if (entry.length > entry.codes.size()) entry.longer = successor;
     }
     plans_->entries.push_back(entry);
+    plans_->entryKeys.push_back(successor == nullptr ? nullptr : successor->keys);
   }
 
   void planSymbol(std::size_t code) {
@@ -154,6 +155,7 @@ class Planner {
     auto q = std::make_unique<QuickSuccessor>();
     q->rule = &rule;
     q->successor = &rule.successors.front();
+    q->keys = q->successor->keys.data();
     q->random = rule.random;
     q->length = static_cast<std::uint32_t>(q->successor->codes.size());
     q->values = static_cast<std::uint32_t>(q->successor->terms.size());

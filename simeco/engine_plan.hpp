@@ -30,6 +30,7 @@ struct QuickSuccessor {
   std::uint32_t length = 0;                        ///< modules
   std::uint32_t values = 0;                        ///< parameters
   std::vector<QuickTerm> terms;                    ///< when `quick`
+  const std::uint64_t* keys = nullptr;             ///< for the identities of its modules
   bool quick = true;                               ///< every parameter is a QuickTerm, and nothing is decomposed
   bool decomposes = false;                         ///< one of its modules has decomposition rules
   bool random = false;
@@ -104,6 +105,7 @@ struct Plans {
   bool bytes = false;                           ///< no parameters, nothing to compute: `entries` say it all
   std::array<ByteSymbol, 256> byteSymbols;
   std::vector<ByteEntry> entries;
+  std::vector<const std::uint64_t*> entryKeys;  ///< of each entry the keys of its modules; null: it stays who it is
   bool leaps = true;                            ///< only Copy and constant Direct: many steps can be made at once
   bool calms = true;                            ///< only Copy, Direct, Guarded and Neighbours, nothing random, brackets stay
   std::size_t longest = 1;                      ///< modules that one module may become

@@ -4,21 +4,35 @@
 
 #include "simeco/engine.hpp"
 #include "simeco/engine_calm.hpp"
+#include "simeco/engine_identity.hpp"
 #include "simeco/engine_machine.hpp"
 #include "simeco/engine_match.hpp"
 #include "simeco/engine_plan.hpp"
 #include "simeco/engine_surroundings.hpp"
 #include "simeco/engine_workers.hpp"
 
+#include <atomic>
 #include <optional>
 #include <vector>
 
 namespace axil::simeco {
 
-/// Two arrays that a step fills.
+/// What a step fills.
 struct Arrays {
   Buffer<SymbolCode> codes;
   Buffer<double> parameters;
+  Buffer<Identity> identities;  ///< only where something draws
+
+  void clear() {
+    codes.clear();
+    parameters.clear();
+    identities.clear();
+  }
+  [[nodiscard]] std::size_t bytes() const { return codes.bytes() + parameters.bytes() + identities.bytes(); }
+  /// Of what is filled.
+  [[nodiscard]] std::size_t used() const {
+    return codes.size() + parameters.size() * sizeof(double) + identities.size() * sizeof(Identity);
+  }
 };
 
 /// Modules still to be looked up: [at, end) of the stack of lists, made by `depth` nested applications.
@@ -43,11 +57,14 @@ struct Lane {
   bool depthReached = false;
   std::size_t fired = 0;
   const CompiledRule* lastRule = nullptr;
+  enum class Limit { None, Modules, Bytes, Time } limit = Limit::None;  ///< the one that it met
   std::optional<Error> error;
+
+  [[nodiscard]] bool ended() const { return error.has_value() || limit != Limit::None; }
 };
 
 /// Which draws belong to what: each has its own streams, so none shifts another.
-enum class Stream : std::uint64_t { Axiom, Header, Choice, Successor, Homomorphism };
+enum class Stream : std::uint64_t { Axiom, Header, Choice, Successor, Homomorphism, Decomposition };
 
 struct Engine::State {
   std::shared_ptr<const Program> program;
@@ -60,7 +77,7 @@ struct Engine::State {
   Instance main;
   std::vector<Instance> visits;    ///< of the string, in the order of its `?`
   std::vector<Machine> machines;   ///< one a thread
-  std::vector<std::uint64_t> fired;///< modules that each production made more than it took, in the last step; for messages
+  std::vector<std::uint64_t> made; ///< by rule id: modules that it made in this step of the general way; for messages
   std::vector<std::string> notes;
   Rng random{0};
   std::int64_t steps = 0;
@@ -71,28 +88,38 @@ struct Engine::State {
   std::unique_ptr<Calm> calm;
   double grownCodes = 0;           ///< modules and parameters that a module became in the last step, and a little more
   double grownNumbers = 0;
+  std::atomic<std::size_t> written{0};  ///< bytes that all lanes have written in this step
   bool inPlace = false;            ///< the last step changed `string` itself
   const CompiledRule* lastRule = nullptr;  ///< one that fired lately; for messages
   Buffer<SymbolCode> rightCodes;   ///< right neighbour of every module
   bool walking = false;            ///< sub-L-systems: contexts walk, since ignored letters differ
   bool plain = false;
   bool timeless = false;           ///< a string that one step leaves as it is stays so
+  bool identified = false;         ///< modules carry identities
   bool drawsConditions = false;    ///< rules that did not fire may fire at the next step by chance
   bool drawsResults = false;
   bool stopped = false;
   std::optional<std::int64_t> wantedLength;
 
   [[nodiscard]] Machine& machine() { return machines.front(); }
-  [[nodiscard]] OldString oldString() const { return {string.codes(), string.parameters()}; }
+  [[nodiscard]] OldString oldString() const { return {string.codes(), string.parameters(), string.identities()}; }
   [[nodiscard]] Rng stream(Stream which) const { return random.split(static_cast<std::uint64_t>(which)); }
   [[nodiscard]] Rng stream(Stream which, std::uint64_t a, std::uint64_t b = 0) const { return stream(which).split(a, b); }
 
   /// The error of a machine in trouble, with the rule and step it happened at.
   [[nodiscard]] Failure failure(const Error& error, const CompiledRule* rule) const;
-  [[nodiscard]] Failure tooMany(const char* what, std::size_t limit, const CompiledRule* rule) const;
-  /// A failure that also names the rule that was growing the string: `rule`, or the one that fired most.
-  [[nodiscard]] Failure limitReached(std::string message, const CompiledRule* rule) const;
-  [[nodiscard]] Result<void> mayGoOn() const;
+  [[nodiscard]] Failure tooMany(const char* what, std::size_t limit, const CompiledRule* rule);
+  /// A failure that also names the rule that was growing the string: the one that made most in this step, else `rule`, else
+  /// one that fired lately.
+  [[nodiscard]] Failure limitReached(std::string message, const CompiledRule* rule);
+  [[nodiscard]] Failure tooLate();
+  [[nodiscard]] Result<void> mayGoOn();
+  /// Counts what the rules would make of the beginning of the string, where the plain way does not count.
+  void survey();
+  /// The new string becomes the old one.
+  void exchange();
+  /// Bytes that the new string may have beside the old one.
+  [[nodiscard]] std::size_t bytesLeft() const;
   [[nodiscard]] Result<void> runHeader(const Code& code, Instance& instance, std::uint64_t which);
   [[nodiscard]] Result<void> startInstance(Instance& instance);
   void notePeak(std::size_t more);

@@ -185,4 +185,18 @@ ExprId Grammar::add(ExprNode node, SourceSpan where) {
 
 bool operator==(const Grammar& a, const Grammar& b) { return Comparer(a, b).grammars(); }
 
+SourceLines linesOf(std::string_view text) {
+  SourceLines lines;
+  if (!text.empty()) lines.starts.push_back(0);
+  for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1)) lines.starts.push_back(static_cast<std::uint32_t>(at + 1));
+  return lines;
+}
+
+std::string lineOf(const Grammar& grammar, SourceSpan where) {
+  const std::vector<std::uint32_t>& starts = grammar.source.starts;
+  if (starts.empty() || where.end == 0) return "";
+  const auto line = std::upper_bound(starts.begin(), starts.end(), where.begin) - starts.begin();
+  return (grammar.source.file.empty() ? "line " : grammar.source.file + ":") + std::to_string(line);
+}
+
 }  // namespace axil::simeco

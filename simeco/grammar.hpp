@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -263,6 +264,14 @@ struct PlantGrammar {
   SourceSpan where;
 };
 
+/// Where the lines of a grammar's text start and what its file is called, so that the engine can say where a rule stands without
+/// having the text. Empty for a grammar that was built, not read.
+struct SourceLines {
+  std::string file = {};
+  std::vector<std::uint32_t> starts = {};
+};
+[[nodiscard]] SourceLines linesOf(std::string_view text);
+
 /// Which language a grammar was written in, and is printed in.
 enum class Language { SimEco, LSystem };
 
@@ -275,6 +284,7 @@ struct Grammar {
   std::vector<Expr> expressions;
   Comments comments;                 ///< `before` heads the file
   std::vector<std::string> closing;  ///< comments after the last brace
+  SourceLines source;                ///< does not matter to equality
 
   ExprId add(ExprNode node, SourceSpan where = {});
   [[nodiscard]] const Expr& at(ExprId id) const { return expressions[static_cast<std::size_t>(id.value)]; }
@@ -282,5 +292,8 @@ struct Grammar {
   /// The same language, attributes, plants, rules and comments, expressions compared by content.
   friend bool operator==(const Grammar& a, const Grammar& b);
 };
+
+/// Where something of the grammar stands in its text: "plant.l:12", "line 12" without a file, "" when nobody knows.
+[[nodiscard]] std::string lineOf(const Grammar& grammar, SourceSpan where);
 
 }  // namespace axil::simeco

@@ -2,6 +2,7 @@
 
 #include "base/text.hpp"
 #include "simeco/engine.hpp"
+#include "simeco/engine_identity.hpp"
 #include "simeco/growth_attributes.hpp"
 #include "simeco/growth_moment.hpp"
 
@@ -138,7 +139,7 @@ class Recorder {
     if (further.size() < stage.parameters)
       return fail(ErrorCode::BadGrammar, std::string(view.letter) + "(" + shortest(view.parameters[0]) + ") has " + std::to_string(further.size()) +
                                              " further arguments, but its Stage names " + std::to_string(stage.parameters));
-    const Draws::Place place{static_cast<std::uint64_t>(engine_.stepsDone()), module, further};
+    const Draws::Place place{static_cast<std::uint64_t>(engine_.stepsDone()), whoIs(engine_.string().identities()[module]), further};
     const auto sizes = draws_.sizesOf(stage, place);
     if (!sizes) return sizes.failure();
     const auto habit = habitOf(stage, place);
@@ -244,16 +245,21 @@ class Recorder {
 
 // ---- one plant -------------------------------------------------------------------------------------------------------
 
-/// The host's environments, the first from the beginning on.
-std::vector<Scene> scenesOf(const GrowOptions& options) {
+/// The host's environments, the first from the beginning on; the grammar's own obstacles stand in each.
+Result<std::vector<Scene>> scenesOf(const Grammar& grammar, const GrowOptions& options) {
+  const auto own = obstaclesIn(grammar);
+  if (!own) return own.failure();
   std::vector<Scene> scenes;
-  const auto add = [&](double from, const Environment& environment) {
+  const auto add = [&](double from, Environment environment) {
+    environment.obstacles.insert(environment.obstacles.end(), own->begin(), own->end());
     if (!scenes.empty() && scenes.back().from == from) scenes.pop_back();
     scenes.push_back({from, environment, nullptr});
     if (!environment.obstacles.empty()) scenes.back().obstacles = std::make_shared<const ObstacleField>(environment.obstacles);
   };
   add(0, options.environment);
   for (const EnvironmentChange& change : options.changes) add(change.time, change.environment);
+  for (const Scene& scene : scenes)
+    if (auto checked = checkEnvironment(scene.environment); !checked) return checked.failure();
   return scenes;
 }
 
@@ -298,7 +304,7 @@ Result<PlantHistory> recordPlant(const Grammar& grammar, std::size_t index, std:
   auto program = compile(grammar, index, {options.limits.expressionDepth});
   if (!program) return program.failure();
   const std::uint64_t seed = Rng(options.seed).split(index).bits();
-  auto engine = Engine::create(*std::move(program), {.seed = index == 0 ? options.seed : seed, .limits = options.limits, .watch = options.watch});
+  auto engine = Engine::create(*std::move(program), {.seed = index == 0 ? options.seed : seed, .limits = options.limits, .watch = options.watch, .identified = true});
   if (!engine) return engine.failure();
   if (auto started = (*engine)->start(); !started) return started.failure();
   const Draws draws(index == 0 ? options.seed : seed, options.limits, options.watch);
@@ -333,13 +339,14 @@ Result<Growth> prepareGrowth(const Grammar& grammar, const GrowOptions& options)
   if (options.steps && *options.steps < 0) return fail(ErrorCode::BadInput, "a plant cannot be derived for " + std::to_string(*options.steps) + " steps");
   if (auto checked = checkEnvironment(options.environment); !checked) return checked.failure();
   if (auto checked = checkChanges(options.changes); !checked) return checked.failure();
-  const std::vector<Scene> scenes = scenesOf(options);
+  const auto scenes = scenesOf(grammar, options);
+  if (!scenes) return scenes.failure();
   auto data = std::make_shared<GrowthData>();
   data->name = grammar.name;
   data->turning = options.turning;
   std::int32_t production = 0;
   for (std::size_t i = 0; i < grammar.plants.size(); ++i) {
-    auto plant = recordPlant(grammar, i, production, options, scenes, data->styles);
+    auto plant = recordPlant(grammar, i, production, options, *scenes, data->styles);
     if (!plant) return plant.failure();
     const bool complete = plant->settled || options.steps;
     if (options.upToTime && !complete) data->upToTime = options.upToTime;

@@ -614,6 +614,7 @@ Parsed parseLSystem(std::string_view text, const LSystemOptions& options) {
   }
   const Preprocessed source = preprocessLSystem(text, options);
   LSystemParser(source, parsed).run();
+  parsed.grammar.source = linesOf(text);
   parsed.diagnostics.insert(parsed.diagnostics.end(), source.diagnostics.begin(), source.diagnostics.end());
   parsed.diagnostics = limited(std::move(parsed.diagnostics));
   return parsed;

@@ -3,9 +3,11 @@
 /// ModuleString: what a derivation makes, a string of modules kept as two flat arrays, one byte a module and eight a parameter.
 ///
 /// A *symbol* is a letter together with its number of parameters: A, A(x) and A(x, y) are three symbols. The string stores
-/// symbol codes; `symbols()` says what they mean. All parameters follow each other in a second array, so the parameters
+/// symbol codes; `symbols()` says what they mean. Strings of grammars that draw random numbers carry an identity for each module,
+/// six bytes (engine_identity.hpp). All parameters follow each other in a second array, so the parameters
 /// of the n-th module start where those of the modules before it end: reading in order is free, reading at random is not offered.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -94,6 +96,14 @@ struct Symbol {
 };
 
 using SymbolCode = std::uint8_t;
+
+/// Who a module is by its ancestry: 48 bits, the lowest first (engine_identity.hpp).
+struct Identity {
+  std::array<std::uint16_t, 3> parts{};
+  friend bool operator==(const Identity&, const Identity&) = default;
+};
+static_assert(sizeof(Identity) == 6);
+
 /// So many different symbols one grammar may use: codes are bytes.
 constexpr std::size_t maximumSymbols = 250;
 
@@ -114,8 +124,10 @@ class ModuleString {
   [[nodiscard]] const std::vector<Symbol>& symbols() const;
   [[nodiscard]] std::span<const SymbolCode> codes() const { return codes_.span(); }
   [[nodiscard]] std::span<const double> parameters() const { return parameters_.span(); }
+  /// One a module, or none where nothing draws.
+  [[nodiscard]] std::span<const Identity> identities() const { return identities_.span(); }
   /// Memory that the string holds.
-  [[nodiscard]] std::size_t bytes() const { return codes_.bytes() + parameters_.bytes(); }
+  [[nodiscard]] std::size_t bytes() const { return codes_.bytes() + parameters_.bytes() + identities_.bytes(); }
 
   class Iterator {
    public:
@@ -152,6 +164,7 @@ class ModuleString {
   /// For the engine: the arrays themselves.
   [[nodiscard]] Buffer<SymbolCode>& codeBuffer() { return codes_; }
   [[nodiscard]] Buffer<double>& parameterBuffer() { return parameters_; }
+  [[nodiscard]] Buffer<Identity>& identityBuffer() { return identities_; }
 
   /// The same modules with the same parameters, compared by what they mean and bit by bit.
   friend bool operator==(const ModuleString& a, const ModuleString& b);
@@ -160,6 +173,7 @@ class ModuleString {
   std::shared_ptr<const std::vector<Symbol>> symbols_;
   Buffer<SymbolCode> codes_;
   Buffer<double> parameters_;
+  Buffer<Identity> identities_;
 };
 
 /// How often each letter stands in the string, whatever its number of parameters.

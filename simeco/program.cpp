@@ -3,6 +3,8 @@
 #include "base/overloaded.hpp"
 #include "base/text.hpp"
 #include "simeco/engine_arithmetic.hpp"
+#include "simeco/lsystem_files.hpp"
+#include "simeco/engine_identity.hpp"
 
 #include <bit>
 #include <map>
@@ -74,10 +76,13 @@ class Compiler {
     readEnvironment(plant.attributes);
     internAll(plant.rules);
     for (const RuleSet& rules : plant.subRules) internAll(rules);
+    // What is detached goes on behind a module of its own.
+    if (codes_.contains({"%", 1})) (void)codeOf("%", 2);
     describeSymbols();
     program_.systems.resize(1 + plant.subRules.size());
     compileSystem(plant.rules, program_.systems[0]);
     for (std::size_t i = 0; i < plant.subRules.size(); ++i) compileSystem(plant.subRules[i], program_.systems[i + 1]);
+    listRules();
   }
 
   Term single(ExprId id, const std::vector<std::string>& locals) {
@@ -86,6 +91,22 @@ class Compiler {
     Scope scope{{}, &program_.systems[0]};
     for (std::size_t i = 0; i < locals.size(); ++i) scope.locals.emplace(locals[i], static_cast<std::uint16_t>(i));
     return term(id, scope);
+  }
+
+  /// Gives every rule its id, and says what draws.
+  void listRules() {
+    for (std::size_t system = 0; system < program_.systems.size(); ++system) {
+      System& s = program_.systems[system];
+      program_.draws = program_.draws || s.stochastic || s.productions.draws || s.decomposition.draws;
+      program_.imageDraws = program_.imageDraws || s.homomorphism.draws;
+      for (auto& [kind, table] : {std::pair{RuleKind::Production, &s.productions}, {RuleKind::Decomposition, &s.decomposition},
+                                  {RuleKind::Homomorphism, &s.homomorphism}, {RuleKind::Interaction, &s.interaction}})
+        for (CompiledRule& rule : table->rules) {
+          rule.id = static_cast<std::uint32_t>(program_.rules.size());
+          program_.rules.push_back({kind, system, rule.number, rule.where, rule.name});
+        }
+    }
+    program_.draws = program_.draws || program_.imageDraws || program_.systems[0].interaction.draws;
   }
 
   [[nodiscard]] const std::vector<std::string>& errors() const { return errors_; }
@@ -148,6 +169,8 @@ class Compiler {
       program_.opens[code] = symbol.letter == "[";
       program_.closes[code] = symbol.letter == "]";
       if (symbol.letter == "%" && symbol.parameters == 0) program_.cut = static_cast<int>(code);
+      if (symbol.letter == "%" && symbol.parameters == 1) program_.detach = static_cast<int>(code);
+      if (symbol.letter == "%" && symbol.parameters == 2) program_.detached = static_cast<int>(code);
       if (symbol.letter == "?" && symbol.parameters == 2) program_.enter = static_cast<int>(code);
       if (symbol.letter == "$" && symbol.parameters == 0) program_.leave = static_cast<int>(code);
     }
@@ -361,6 +384,8 @@ class Compiler {
     if (x.function == "func") return hostFunction(x, scope);
     if (x.function == "com") return hostExchange(x, scope);
     if (x.function == "printf" && grammar_.language == Language::LSystem) return hostPrint(x, scope);
+    if (grammar_.language == Language::LSystem && isSessionCall(x.function)) return sessionCall(x, scope);
+    if (grammar_.language == Language::LSystem && (x.function == "fopen" || x.function == "fclose" || x.function == "fscanf")) return fileCall(x, scope);
     const FunctionRow* row = functionNamed(x.function);
     const int arguments = static_cast<int>(x.arguments.size());
     if (row == nullptr)
@@ -390,6 +415,41 @@ class Compiler {
       if (variable != nullptr) store(variable->name, scope);
     }
     emit(Op::Constant, 1);
+  }
+  /// What only a window or a written file would show: nothing happens, its arguments are computed and it is 0.
+  static bool isSessionCall(const std::string& function) {
+    static const std::set<std::string, std::less<>> kNames{"Display", "play", "fprintf", "fflush", "vvXmin", "vvXmax", "vvYmin", "vvYmax", "vvZmin", "vvZmax", "vvScale"};
+    return kNames.contains(function);
+  }
+  void sessionCall(const Call& x, const Scope& scope) {
+    effects_ = true;
+    for (const ExprId argument : x.arguments) {
+      if (std::holds_alternative<Text>(grammar_.at(argument).node)) continue;
+      expression(argument, scope);
+      emit(Op::Drop, -1);
+    }
+    emit(Op::Constant, 1);
+  }
+  /// fscanf stores what it read back, from the last variable to the first, and leaves how many there were.
+  void fileCall(const Call& x, const Scope& scope) {
+    effects_ = true;
+    std::string text;
+    for (const ExprId argument : x.arguments) {
+      if (const Text* words = std::get_if<Text>(&grammar_.at(argument).node)) text += words->text + '\n';
+      else expression(argument, scope);
+    }
+    program_.texts.push_back(text);
+    const auto texts = std::count_if(x.arguments.begin(), x.arguments.end(), [&](ExprId id) { return std::holds_alternative<Text>(grammar_.at(id).node); });
+    const std::size_t values = x.arguments.size() - static_cast<std::size_t>(texts);
+    const FileCall call = x.function == "fopen" ? FileCall::Open : x.function == "fclose" ? FileCall::Close : FileCall::Scan;
+    if (call == FileCall::Open ? texts != 2 : call == FileCall::Close ? values != 1 : (texts != 1 || values < 1)) return error(x.function + " is not called as it should be");
+    emit(Op::HostFile, call == FileCall::Open ? 1 : 0, static_cast<std::int32_t>(program_.texts.size() - 1), values, static_cast<double>(call));
+    for (std::size_t i = x.arguments.size(); call == FileCall::Scan && i-- > 2;) {
+      const Name* variable = std::get_if<Name>(&grammar_.at(x.arguments[i]).node);
+      if (variable == nullptr) error("fscanf reads into variables, so each of its further arguments must be a name");
+      if (variable != nullptr) store(variable->name, scope);
+      else emit(Op::Drop, -1);
+    }
   }
   void hostPrint(const Call& x, const Scope& scope) {
     const Text* format = x.arguments.empty() ? nullptr : std::get_if<Text>(&grammar_.at(x.arguments[0]).node);
@@ -521,10 +581,20 @@ class Compiler {
     return recorded([&] { block(statements, scope, 0); });
   }
 
-  static void assignedNames(const Block& statements, std::vector<std::string>& names) {
+  /// fscanf gives its variables a value.
+  void scannedNames(ExprId id, std::vector<std::string>& names) const {
+    const auto* call = std::get_if<Call>(&grammar_.at(id).node);
+    if (call == nullptr || call->function != "fscanf") return;
+    for (const ExprId argument : call->arguments)
+      if (const auto* name = std::get_if<Name>(&grammar_.at(argument).node); name != nullptr && !indexIn(names, name->name)) names.push_back(name->name);
+  }
+  void assignedNames(const Block& statements, std::vector<std::string>& names) const {
     for (const Statement& s : statements) {
       if (const auto* assign = std::get_if<Assign>(&s.node)) {
         if (!indexIn(names, assign->name)) names.push_back(assign->name);
+        scannedNames(assign->value, names);
+      } else if (const auto* evaluated = std::get_if<Evaluate>(&s.node)) {
+        scannedNames(evaluated->value, names);
       } else if (const auto* choice = std::get_if<If>(&s.node)) {
         assignedNames(choice->yes, names);
         assignedNames(choice->no, names);
@@ -588,6 +658,8 @@ class Compiler {
     CompiledRule r;
     r.number = number;
     r.name = describe(production);
+    r.where = production.where;
+    if (const std::string line = lineOf(grammar_, production.where); !line.empty()) r.name += " (" + line + ")";
     where_ = "in the rule " + r.name + ": ";
     Scope scope{{}, &system};
     std::size_t bound = 0;
@@ -639,6 +711,13 @@ class Compiler {
       }
   }
 
+  static std::vector<std::uint64_t> keysOf(const std::vector<Module>& modules) {
+    std::map<std::pair<std::string, std::size_t>, std::size_t> seen;
+    std::vector<std::uint64_t> keys;
+    for (const Module& module : modules)
+      keys.push_back(childKey(module.letter, module.arguments.size(), seen[{module.letter, module.arguments.size()}]++));
+    return keys;
+  }
   CompiledSuccessor successor(const Successor& source, const Scope& scope) {
     CompiledSuccessor s;
     for (const Module& module : source.modules) {
@@ -649,6 +728,7 @@ class Compiler {
       s.constant = s.constant && t.kind == Term::Kind::Constant;
       s.values.push_back(t.value);
     }
+    s.keys = keysOf(source.modules);
     s.hasWeight = source.weight.has_value();
     s.weight = source.weight ? term(*source.weight, scope) : Term{.value = 1};
     return s;
@@ -663,6 +743,7 @@ class Compiler {
         continue;
       }
       t.rules.push_back(rule(production, system, static_cast<std::uint32_t>(t.rules.size())));
+      t.draws = t.draws || t.rules.back().random || t.rules.back().randomCondition;
       t.bySymbol[t.rules.back().predecessor.front().code].all.push_back(static_cast<std::uint32_t>(t.rules.size() - 1));
     }
     for (RuleIndex& index : t.bySymbol) number(index, t);
@@ -725,6 +806,7 @@ class Compiler {
       system.axiomCodes.push_back(codeOf(module));
       for (const ExprId argument : module.arguments) system.axiomTerms.push_back(term(argument, scope));
     }
+    system.axiomKeys = keysOf(rules.axiom);
     where_ = "in the derivation length: ";
     if (rules.derivationLength) system.derivationLength = term(*rules.derivationLength, scope);
     where_.clear();

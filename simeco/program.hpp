@@ -41,7 +41,7 @@ struct FunctionRow {
 enum class Op : std::uint8_t {
   Constant, Local, Global, Element, Minus, Not, Truth,
   Add, Subtract, Multiply, Divide, Remainder, Power, Less, LessEqual, Greater, GreaterEqual, Equal, NotEqual,
-  Call, HostFunction, HostExchange, HostPrint,
+  Call, HostFunction, HostExchange, HostPrint, HostFile,
   StoreLocal, StoreGlobal, StoreElement, Drop, Jump, JumpIfZero, LoopBack
 };
 
@@ -86,6 +86,7 @@ struct Pattern {
 
 struct CompiledSuccessor {
   std::vector<SymbolCode> codes;
+  std::vector<std::uint64_t> keys; ///< one a module, for its identity
   std::vector<Term> terms;       ///< parameters of all its modules, in order
   bool constant = true;          ///< every term is a constant
   std::vector<double> values;    ///< of a constant successor
@@ -102,14 +103,16 @@ struct CompiledRule {
   bool hasCondition = false;
   Term condition;
   std::vector<CompiledSuccessor> successors;
-  std::uint32_t number = 0;      ///< in text order among the productions of its plant's main L-system; for messages and tracing
+  std::uint32_t number = 0;      ///< in text order within its table
+  std::uint32_t id = 0;          ///< index into Program::rules; of the main L-system's productions the same as `number`
   std::uint16_t frame = 0;       ///< locals: parameters of predecessor, left, right, then variables
   std::uint16_t bound = 0;       ///< of these, how many are parameters
   bool statements = false;
   bool random = false;           ///< its condition, weights or parameters draw random numbers
   bool randomCondition = false;  ///< it may fire by chance
   bool simpleRight = true;       ///< its right context has no brackets and no `=`
-  std::string name;              ///< "S(4) -> ...", for messages
+  SourceSpan where;
+  std::string name;              ///< "S(4) -> ... (plant.simeco:12)", for messages
 };
 
 /// Rules by the symbol that their predecessor starts with. Where many rules want one number each (S(1), S(2), ...), they are
@@ -127,6 +130,7 @@ struct RuleTable {
   int maximumDepth = 1;
   std::optional<std::uint64_t> seed;
   bool warn = true;
+  bool draws = false;               ///< some rule draws random numbers
   [[nodiscard]] bool empty() const { return rules.empty(); }
 };
 
@@ -141,6 +145,7 @@ struct ArrayLayout {
 struct System {
   std::string label;
   std::vector<SymbolCode> axiomCodes;
+  std::vector<std::uint64_t> axiomKeys;
   std::vector<Term> axiomTerms;
   RuleTable productions;
   RuleTable decomposition;
@@ -157,6 +162,18 @@ struct System {
   std::size_t arrayElements = 0;
 };
 
+/// Which of an L-system's rules a rule is.
+enum class RuleKind : std::uint8_t { Production, Decomposition, Homomorphism, Interaction };
+
+/// A rule of the text: where it stands in the grammar and in its text.
+struct RuleInfo {
+  RuleKind kind = RuleKind::Production;
+  std::size_t system = 0;        ///< 0: the plant's own L-system, else the sub-L-system of that number, counted from 1
+  std::size_t number = 0;        ///< in text order among the rules of its kind
+  SourceSpan where;
+  std::string name;              ///< "S(4) -> ... (plant.simeco:12)"
+};
+
 struct Program {
   Language language = Language::SimEco;
   std::shared_ptr<const std::vector<Symbol>> symbols;
@@ -164,9 +181,14 @@ struct Program {
   std::array<bool, 256> opens{};    ///< "["
   std::array<bool, 256> closes{};   ///< "]"
   int cut = -1;                     ///< code of "%", or -1
+  int detach = -1;                  ///< code of "%(p)", or -1
+  int detached = -1;                ///< code of "%(p, i)", what a detached branch starts with, or -1
   int enter = -1;                   ///< code of "?(id, scale)", or -1
   int leave = -1;                   ///< code of "$", or -1
   std::vector<System> systems;      ///< the main one first
+  std::vector<RuleInfo> rules;      ///< all rules by id: the main productions first, in text order
+  bool draws = false;               ///< a derivation draws random numbers: modules need identities
+  bool imageDraws = false;          ///< so does the homomorphism
   std::vector<Instruction> instructions;
   std::vector<Code> codes;
   std::vector<std::string> texts;

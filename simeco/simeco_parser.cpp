@@ -296,7 +296,9 @@ Parsed parseSimeco(std::string_view text) {
     const std::uint32_t at = firstBadByte(text);
     return refused("the text is not UTF-8 from here on", "save the file as UTF-8", {at, at + 1});
   }
-  return Parser(text).run();
+  Parsed parsed = Parser(text).run();
+  parsed.grammar.source = linesOf(text);
+  return parsed;
 }
 
 }  // namespace axil::simeco
