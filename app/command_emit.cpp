@@ -1,10 +1,13 @@
 #include "app/commands.hpp"
 #include "app/project_options.hpp"
+#include "base/files.hpp"
 #include "simeco/simeco.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <map>
+#include <utility>
 
 namespace axil::app {
 
@@ -16,16 +19,32 @@ struct EmitCommand {
   emit::Dialect dialect = emit::Dialect::SimEco;
   TurningRule turning = TurningRule::Exact;
   int decimals = 6;
+  std::uint64_t seed = 1;
+  std::string out;
 };
 
+/// To OUT, with the files that the dialect wants beside it; without OUT the text alone, to stdout.
+int written(const emit::DialectText& text, const std::string& out) {
+  if (out.empty()) return print(text.text);
+  namespace fs = std::filesystem;
+  if (auto done = writeFile(out, text.text); !done) return report(done.error());
+  for (const auto& [content, ending] : {std::pair{&text.view, ".v"}, std::pair{&text.animation, ".a"}}) {
+    if (content->empty()) continue;
+    if (auto done = writeFile(fs::path(out).replace_extension(ending), *content); !done) return report(done.error());
+  }
+  return 0;
+}
+
 int run(const EmitCommand& command) {
+  if (command.dialect != emit::Dialect::SimEco && command.turning == TurningRule::Literal)
+    return report({ErrorCode::BadInput, "only SimEco text can follow the literal turning rule; leave --literal out for other dialects", {}});
   const document::ChainOptions options{.turning = command.turning, .decimals = command.decimals, .watch = terminalWatch()};
-  if (command.dialect == emit::Dialect::SimEco)
-    return printed(command.project, options, [&](const auto& open, const auto& o) { return document::grammarOf(open, command.kind, o); }, simeco::print);
-  if (command.kind != document::GrammarKind::Initial)
-    return report({ErrorCode::BadInput, std::string("the ") + document::nameOf(command.kind) + " grammar can only be written as simeco; use --kind initial for other dialects", {}});
-  return printed(command.project, options, [&](const auto& open, const auto& o) { return document::dialectOf(open, command.dialect, o); },
-                 [](const std::string& text) { return text; });
+  const auto open = document::loadProject(command.project);
+  if (!open) return report(open.error());
+  const auto grammar = document::grammarOf(*open, command.kind, options);
+  if (!grammar) return report(grammar.error());
+  const auto text = emit::inDialect(*grammar, command.dialect, {.seed = command.seed});
+  return text ? written(*text, command.out) : report(text.error());
 }
 
 const std::map<std::string, document::GrammarKind> kKinds = {{"initial", document::GrammarKind::Initial},
@@ -41,11 +60,13 @@ void addEmit(CLI::App& sub, int& status) {
   addExamples(sub, "  axil emit plant.axil --kind initial > plant.simeco      # regrows exactly what was measured\n"
                    "  axil emit plant.axil --kind predictive > next.simeco    # goes on growing from there\n"
                    "  axil emit plant.axil --kind structured > rules.simeco   # the same habit in few rules\n"
-                   "  axil emit plant.axil --kind initial --dialect cpfg > plant.l");
+                   "  axil emit plant.axil --kind initial --dialect cpfg -o plant.l     # and plant.v, plant.a");
   addProject(sub, command.project);
   sub.add_option("--kind", command.kind, "initial, predictive or structured")->transform(CLI::CheckedTransformer(kKinds))->option_text("KIND [initial]");
   sub.add_option("--dialect", command.dialect, "simeco, cpfg, lpy or mtg")->transform(CLI::CheckedTransformer(kDialects))->option_text("DIALECT [simeco]");
   sub.add_option("--decimals", command.decimals, "Digits after the point; -1 prints full precision")->check(CLI::Range(-1, 15))->capture_default_str();
+  sub.add_option("-o,--out", command.out, "Write to this file instead of stdout; cpfg's view and animation files go beside it");
+  sub.add_option("--seed", command.seed, "Which plant of a family the mtg table shows, and the seed in a lpy program")->capture_default_str();
   addLiteral(sub, command.turning);
 }
 

@@ -153,10 +153,4 @@ Result<simeco::Grammar> grammarOf(const OpenProject& open, GrammarKind kind, con
   return grammarOf(open.project, *measurements, kind, options);
 }
 
-Result<std::string> dialectOf(const OpenProject& open, emit::Dialect dialect, const ChainOptions& options) {
-  const auto measurements = measurementsOf(open, options);
-  if (!measurements) return measurements.failure();
-  return emit::inDialect(*measurements, dialect, emitOptionsOf(open.project, options));
-}
-
 }  // namespace axil::document

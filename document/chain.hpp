@@ -52,7 +52,4 @@ struct Measured {
 [[nodiscard]] Result<simeco::Grammar> grammarOf(const Project& project, const quantify::Measurements& measurements, GrammarKind kind,
                                                 const ChainOptions& options);
 
-/// The initial grammar in another program's language.
-[[nodiscard]] Result<std::string> dialectOf(const OpenProject& open, emit::Dialect dialect, const ChainOptions& options);
-
 }  // namespace axil::document
