@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kMostPeriod = 8;
 constexpr double kFew = 0.15;      // of the nodes of other phases may branch where every k-th does
+constexpr double kClearlyLarger = 1.5;
 constexpr double kMany = 0.6;      // of the nodes of the phase must
 
 /// One node on an axis; only nodes that the axis goes on from.
@@ -19,6 +20,7 @@ struct Site {
   int last = 0;         ///< rank of the axis' last such node
   bool branched = false;
   double size = 0;      ///< segments carried by a branch, mean
+  double vigour = 0;    ///< that over the nodes above: growth for its age
 };
 
 /// How many segments each axis carries, its laterals' included.
@@ -43,7 +45,8 @@ std::vector<Site> sitesOf(std::span<const MeasuredPlant> plants, int order) {
         const SegmentPlace& place = plant.structure->at(s);
         if (!place.goesOn) continue;
         sites.push_back({place.rank, place.fromTip, static_cast<int>(axis.segments.size()) - 2, place.branches > 0,
-                         place.branches > 0 ? carried.at(s) / place.branches : 0});
+                         place.branches > 0 ? carried.at(s) / place.branches : 0, 0});
+        sites.back().vigour = sites.back().size / static_cast<double>(place.fromTip);
       }
     }
   }
@@ -131,12 +134,14 @@ BranchingPattern branchingPatternOf(std::span<const MeasuredPlant> plants, int o
   pattern.nodes = sites.size();
   std::array<double, 3> counts{0, 0, 0};
   std::array<double, 3> branched{0, 0, 0};
+  std::array<double, 3> vigours{0, 0, 0};
   double axes = 0;
   double segments = 0;
   for (const Site& s : sites) {
     counts[thirdOf(s)] += 1;
     branched[thirdOf(s)] += s.branched ? 1 : 0;
     pattern.sizes[thirdOf(s)] += s.size;
+    vigours[thirdOf(s)] += s.vigour;
     pattern.branched += s.branched ? 1 : 0;
     axes += s.rank == 0 ? 1 : 0;
     segments += s.rank == 0 ? s.last + 2 : 0;
@@ -144,6 +149,7 @@ BranchingPattern branchingPatternOf(std::span<const MeasuredPlant> plants, int o
   for (std::size_t k = 0; k < 3; ++k) {
     if (counts[k] > 0) pattern.shares[k] = branched[k] / counts[k];
     if (branched[k] > 0) pattern.sizes[k] /= branched[k];
+    if (branched[k] > 0) vigours[k] /= branched[k];
   }
   if (axes > 0) pattern.growthUnit = segments / axes;
   if (pattern.branched == 0) return pattern;
@@ -154,7 +160,11 @@ BranchingPattern branchingPatternOf(std::span<const MeasuredPlant> plants, int o
   }
   const double n = static_cast<double>(sites.size());
   pattern.habit = habitBy(pattern.shares, [n](double a, double b) { return clearlyMore(a, b, n); });
-  if (pattern.habit == BranchingHabit::Even) pattern.habit = habitBy(pattern.sizes, [](double a, double b) { return a > 1.3 * b; });
+  if (pattern.habit != BranchingHabit::Even) return pattern;
+  // Young branches are small: larger ones above are acrotonic beyond doubt, larger ones below basitonic only where they also grew faster.
+  const auto more = [](double a, double b) { return a > kClearlyLarger * b; };
+  const BranchingHabit bySize = habitBy(pattern.sizes, more);
+  if (bySize == BranchingHabit::Acrotonic || (bySize != BranchingHabit::Even && bySize == habitBy(vigours, more))) pattern.habit = bySize;
   return pattern;
 }
 

@@ -4,8 +4,7 @@
 ///
 /// The pattern is judged by how often nodes of the lower, middle and upper third of an axis branch, and by whether every k-th does. The youngest
 /// nodes of an axis, which have had no time to branch, are left out: *delay* is how many nodes from the tip branches begin. Where branches stand
-/// evenly, their sizes tell: largest at the top is acrotonic, at the base basitonic (a crown whose lower branches are merely older looks
-/// basitonic too, and nothing in one moment of a plant tells the two apart). Source: Barthelemy and Caraglio 2007 (terms).
+/// evenly, their sizes tell: clearly largest at the top is acrotonic; at the base basitonic, where they also grew faster for their age. Source: Barthelemy and Caraglio 2007 (terms).
 
 #include "quantify/structure.hpp"
 #include "quantify/phyllotaxis.hpp"

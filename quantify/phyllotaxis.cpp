@@ -125,7 +125,7 @@ void namePreset(Phyllotaxis& fit) {
     const double period = fit.period().radians();
     const double expected = std::abs(wrappedTo(whorl.divergence.radians(), period));
     const double off = std::abs(fit.divergence.radians() - expected);
-    if (off >= best - 1e-9) continue;
+    if (off > best + 1e-9) continue;  // of equal ones the later in the table, which is the more precise
     best = off;
     fit.preset = name;
     fit.presetDivergence = Angle::fromRadians(expected);

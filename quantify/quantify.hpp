@@ -21,3 +21,4 @@
 #include "quantify/subtrees.hpp"    // what repeats, exactly and nearly
 #include "quantify/schedule.hpp"    // when each part was made, and what still grows
 #include "quantify/layers.hpp"      // statistics by order and rank, of one plant or many
+#include "quantify/outlook.hpp"     // what the next stages will be like

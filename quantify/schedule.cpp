@@ -21,41 +21,49 @@ struct Case {
   std::size_t axis = 0;
   double stages = 0;
   double segments = 0;
+  double height = 0;   ///< segments of the longest path from its base, its laterals' included
   bool forks = false;
 };
 
 double bearersBirth(const PlantSchedule& plant, const Axis& axis) { return axis.bearer ? plant.birth[placeOf(*axis.bearer)] : -1; }
 
+/// Segments on the longest path from each segment to a tip, itself included.
+std::vector<double> heightsOf(const Measurements& m) {
+  std::vector<double> heights(m.segments.size(), 1);
+  for (std::size_t s = m.segments.size(); s-- > 0;)
+    if (const auto parent = m.segments[s].parent) heights[placeOf(*parent)] = std::max(heights[placeOf(*parent)], heights[s] + 1);
+  return heights;
+}
+
 std::vector<Case> casesOf(std::span<const MeasuredPlant> plants, const Schedule& schedule, int order) {
   std::vector<Case> cases;
-  for (std::size_t p = 0; p < plants.size(); ++p)
+  for (std::size_t p = 0; p < plants.size(); ++p) {
+    const std::vector<double> heights = heightsOf(*plants[p].measurements);
     for (std::size_t a = 0; a < plants[p].structure->axes.size(); ++a) {
       const Axis& axis = plants[p].structure->axes[a];
       if (axis.order != order) continue;
-      cases.push_back({p, a, schedule.plants[p].now - bearersBirth(schedule.plants[p], axis), static_cast<double>(axis.segments.size()), axis.forks});
+      cases.push_back({p, a, schedule.plants[p].now - bearersBirth(schedule.plants[p], axis), static_cast<double>(axis.segments.size()), heights[placeOf(axis.base())], axis.forks});
     }
+  }
   return cases;
 }
 
 /// Steady growth with the delay that most axes keep to; none where too few do.
 std::optional<int> steadyDelay(const std::vector<Case>& cases) {
   double furthest = 0;
-  for (const Case& c : cases) furthest = std::max(furthest, c.stages - c.segments);
+  for (const Case& c : cases) furthest = std::max(furthest, c.stages - c.height);
   std::optional<int> best;
   std::size_t most = 0;
   for (int delay = 0; delay <= static_cast<int>(furthest); ++delay) {
     std::size_t matching = 0;
     std::size_t tooLong = 0;
-    std::size_t able = 0;
     for (const Case& c : cases) {
       const double possible = c.stages - delay;
-      tooLong += c.segments > possible + 0.5 ? 1 : 0;
-      able += c.forks ? 0 : 1;
-      matching += !c.forks && std::abs(c.segments - possible) < 0.5 ? 1 : 0;
+      tooLong += c.height > possible + 0.5 ? 1 : 0;
+      matching += std::abs(c.height - possible) < 0.5 ? 1 : 0;
     }
     if (static_cast<double>(tooLong) > kTooLong * static_cast<double>(cases.size())) continue;
-    if (able == 0) return 0;
-    if (static_cast<double>(matching) < kMatching * static_cast<double>(able) || matching <= most) continue;
+    if (static_cast<double>(matching) < kMatching * static_cast<double>(cases.size()) || matching <= most) continue;
     most = matching;
     best = delay;
   }

@@ -4,8 +4,8 @@
 /// was; this reads it off how long branches are for their place, and says which axes still grow.
 ///
 /// The plant is `now` stages old: its longest path has now + 1 segments. A branch whose bearer was made at stage b has had now - b stages. An
-/// order is *steady* where a good part of its axes have exactly as many segments as stages since they began, `delay` stages after their
-/// bearer: those that have still grow, those that fall short have ended (or forked). Where no such rule shows, as on most real
+/// order is *steady* where a good part of its axes reach, with what stands on them, exactly as many segments as stages since they began, `delay` stages after
+/// their bearer: axes that have all their segments still grow, those that fall short have ended (or forked). Where no such rule shows, as on most real
 /// plants, the order grows at a *rate*: the median of segments a stage, for `lasting` stages if older branches are no longer than that.
 /// Rates of orders above the leader's are the measured apical control. Source: de Reffye's crown analysis in the wording of Barthelemy and Caraglio 2007.
 

@@ -145,6 +145,8 @@ class Builder {
     }
     for (std::size_t s = 0; s < m_.segments.size(); ++s) {
       const Segment& segment = m_.segments[s];
+      const PlantDirection start = PlantDirection::along(glm::cross(segment.rAxis.unit(), segment.direction.unit()));
+      out_.places[s].twist = azimuthOf(segment.direction, sides[s], start);
       for (const SegmentId child : segment.children) out_.places[placeOf(child)].azimuth = azimuthOf(segment.direction, sides[s], m_.at(child).direction);
       for (const LeafMeasure& leaf : segment.leaves) out_.leafAzimuths[s].push_back(azimuthOf(segment.direction, sides[s], leaf.direction));
     }

@@ -42,6 +42,7 @@ struct SegmentPlace {
   int branches = 0;        ///< axes inserted at its tip
   bool goesOn = false;     ///< the axis has a further segment
   bool isNode = false;     ///< a leaf, an axis or a fork stands at its tip
+  double twist = 0;        ///< azimuth, around this segment, at which a child with rotu 0 would stand
   double azimuth = 0;      ///< of this segment around its bearer or predecessor, radians, see azimuthOf
 };
 

@@ -1,0 +1,99 @@
+#pragma once
+/// \file
+/// Outlook: what a measured plant's next stages will be like, by branching order, and what each of its own tips will do next.
+///
+/// From layered statistics come, for each order: how fast its axes grow and when they stop (schedule), what becomes of a tip (goes on, branches, forks,
+/// ends) and at which ranks, how leaves and branches stand, how large leaves get, how many stages they take and after how many they are gone.
+/// The length of a next segment is foretold by the rule that foretold the measured ones best, each from the segments below it: the order's
+/// trend along the rank, the axis' own level on that trend, or the segment below times the usual ratio; its misses make the interval.
+/// Rules that are no better than chance are not told apart: fewer than three misses take the trend. Source of the idea: L-Grammar Generator
+/// 2005, section 3.4.2 and chapter 4; choice by hindsight as in Hyndman and Athanasopoulos, Forecasting (2021), section 5.10.
+
+#include "base/result.hpp"
+#include "quantify/layers.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace axil::quantify {
+
+enum class LengthRule { Trend, Axis, Last };
+[[nodiscard]] const char* nameOf(LengthRule rule);
+
+/// How lengths of an order's next segments are foretold. Misses are of logarithms.
+struct LengthOutlook {
+  LengthRule rule = LengthRule::Trend;
+  double step = 1;          ///< factor from one rank to the next
+  double miss = 0;          ///< standard deviation of log(true / foretold)
+  std::size_t samples = 0;  ///< segments it was judged by
+};
+
+struct OrderOutlook {
+  int order = 0;
+  OrderSchedule schedule;
+  std::vector<Fate> fates;          ///< shares sum to 1; of tips below `most`
+  std::optional<int> most;          ///< segments at which axes of this order end, if they do
+  int period = 1;                   ///< branches stand at every period-th node, at those of rank `phase` modulo it
+  int phase = 0;
+  int delay = 0;                    ///< stages after its node that a branch begins, beyond the usual one
+  LengthOutlook length;
+  double usualLength = 0;           ///< of an axis' first segment
+  bool followsBearer = false;       ///< the first segment's length is `bearerRatio` times its bearer's
+  double bearerRatio = 1;           ///< of axes of this order
+  double startMiss = 0;             ///< standard deviation of log(true / foretold) of first segments
+  Estimate bend;
+  Estimate insertion;               ///< of axes of this order
+  double radius = 0;                ///< of young segments; 0: none measured
+  double divergence = 0;            ///< radians, from node to node, as wound on the plant
+  double divergenceDeviation = 0;
+  double firstAzimuth = 0;          ///< of an axis' first node; meaningful where `startsAlike`
+  bool startsAlike = false;
+  int perNode = 0;                  ///< leaves
+  double leafShare = 0;             ///< of new nodes that have them
+  bool leafAtOwnTip = true;         ///< a leaf comes with the segment it tips; else with the next one
+  double leafAngle = 0, leafAngleDeviation = 0;
+  double leafLength = 0, leafWidth = 0, petiole = 0;
+  double leafDeviation = 0;         ///< of the logarithm of a grown leaf's length
+  double leafStages = 1;            ///< stages until it is grown
+  std::optional<double> leafLasts;  ///< stages after which it has fallen
+  double branchBesideLeaf = 0;      ///< azimuth of a branch against the leaf of its node
+  std::size_t segments = 0;         ///< measured
+};
+
+/// What one measured axis will do next.
+struct TipOutlook {
+  AxisId axis;
+  SegmentId tip;
+  int order = 0;
+  int nextRank = 0;
+  double length = 0;      ///< foretold median of its next segment
+  double low = 0;         ///< 90 % of true ones lie between
+  double high = 0;
+  double miss = 0;        ///< of the logarithm, with the axis' own uncertainty
+  double azimuth = 0;     ///< rotu at which the next node's organs would stand
+};
+
+/// A measured node that may yet branch.
+struct BudOutlook {
+  SegmentId at;
+  int order = 0;          ///< of what would grow from it
+  int waits = 0;          ///< stages
+  double share = 0;       ///< how likely
+  double length = 0;
+  double rotu = 0;
+};
+
+struct Outlook {
+  std::vector<OrderOutlook> orders;
+  std::vector<TipOutlook> tips;   ///< of the first plant, ascending
+  std::vector<BudOutlook> buds;
+  LayeredStatistics statistics;
+  [[nodiscard]] const OrderOutlook& of(int order) const;  ///< of orders above the highest measured, the highest's
+};
+
+/// The outlook of the first plant, by what all of them show. Fails as layeredStatistics does, and with NoAnswer where no segment of any plant has a
+/// child: nothing shows how it goes on.
+[[nodiscard]] Result<Outlook> outlookOf(std::span<const Measurements> plants);
+
+}  // namespace axil::quantify
