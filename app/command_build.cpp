@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/grammar_options.hpp"
 #include "app/project_options.hpp"
 #include "document/build.hpp"
 
@@ -15,6 +16,7 @@ struct BuildCommand {
   std::string out;
   int frames = 6;
   bool video = false;
+  simeco::Limits limits;
 };
 
 std::string summary(const document::BuildReport& r, const std::string& folder) {
@@ -34,6 +36,7 @@ int run(const BuildCommand& command) {
   if (!open) return report(open.error());
   document::BuildOptions options;
   options.chain.watch = terminalWatch();
+  options.chain.limits = command.limits;
   options.frames = command.frames;
   options.video = command.video ? document::Video::Mp4 : document::Video::None;
   const auto built = document::build(*open, command.out, options);
@@ -52,6 +55,7 @@ void addBuild(CLI::App& sub, int& status) {
   sub.add_option("-o,--out", command.out, "The folder to write into; made if missing")->required();
   sub.add_option("--frames", command.frames, "Growth pictures")->check(CLI::Range(2, 1000))->capture_default_str();
   sub.add_flag("--video", command.video, "Also write growth.mp4");
+  addLimits(sub, command.limits);
 }
 
 }  // namespace axil::app

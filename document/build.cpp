@@ -84,7 +84,7 @@ Result<std::map<GrammarKind, Grammar>> writeGrammars(Output& output, const Proje
 }
 
 Result<Growth> growthOf(const Grammar& grammar, const Project& project, const ChainOptions& options) {
-  return simeco::prepareGrowth(grammar, {.seed = project.seed, .watch = options.watch, .turning = options.turning});
+  return simeco::prepareGrowth(grammar, {.seed = project.seed, .limits = options.limits, .watch = options.watch, .turning = options.turning});
 }
 
 /// What the furthest-reaching grammar grows: the predictive one, where there is one.

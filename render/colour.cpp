@@ -62,6 +62,8 @@ Palette paletteOf(OrganKind kind) {
 
 /// Where a healthy leaf's hue lies, degrees; and the range of hues that are called green.
 constexpr double leafHue = 86, greenFrom = 65, greenTo = 170;
+/// From here to green are the hues of stems: brown, ochre, olive.
+constexpr double stemHueFrom = 15;
 
 float linearOf(double s) { return static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4)); }
 double srgbOf(double l) { return l <= 0.0031308 ? l * 12.92 : 1.055 * std::pow(l, 1 / 2.4) - 0.055; }
@@ -84,13 +86,21 @@ Rgb8 rgb8FromLinear(const glm::vec3& linear) {
 }
 
 glm::vec3 naturalColour(const glm::dvec4& named, OrganKind kind) {
-  const Palette palette = paletteOf(kind);
   Hsv hsv = hsvOf(glm::clamp(glm::dvec3(named), 0.0, 1.0));
+  // Wood, rind and green are muted; who asks for a red, blue or violet stem means it.
+  const bool stemHue = hsv.hue > stemHueFrom && hsv.hue < greenTo;
+  const Palette palette = paletteOf(kind == OrganKind::Stem && !stemHue ? OrganKind::Fruit : kind);
   const double strength = std::clamp((hsv.saturation - palette.saturationKnee) / 0.3, 0.0, 1.0);
   if (hsv.hue > greenFrom && hsv.hue < greenTo) hsv.hue += palette.greenPull * strength * (leafHue - hsv.hue);
   hsv.saturation = softLimit(hsv.saturation, palette.saturationKnee, palette.saturationLimit);
   hsv.value = softLimit(hsv.value, palette.valueKnee, palette.valueLimit);
   return linearFromSrgb(rgbOf(hsv));
+}
+
+glm::vec3 paintColour(const glm::dvec4& named) {
+  const Hsv hsv = hsvOf(glm::clamp(glm::dvec3(named), 0.0, 1.0));
+  const bool green = hsv.hue > greenFrom && hsv.hue < greenTo && hsv.saturation > 0.1;
+  return naturalColour(named, green ? OrganKind::Leaf : OrganKind::Flower);
 }
 
 glm::vec3 defaultColour(OrganKind kind) {

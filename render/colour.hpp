@@ -27,6 +27,10 @@ struct Rgb8 {
 /// already as muted stays as it is. Alpha is not looked at.
 [[nodiscard]] glm::vec3 naturalColour(const glm::dvec4& named, simeco::OrganKind kind);
 
+/// The linear colour of what an L-system's turtle fills or outlines in the sRGB colour `named`: greens as of a leaf, all other
+/// hues as strong and bright as of a flower.
+[[nodiscard]] glm::vec3 paintColour(const glm::dvec4& named);
+
 /// The linear colour of an organ that its grammar gives none.
 [[nodiscard]] glm::vec3 defaultColour(simeco::OrganKind kind);
 /// What a stem goes over to as it thickens.

@@ -25,7 +25,7 @@ struct Counts {
 };
 
 Counts countsOf(const PlantMesh& mesh) {
-  Counts counts{mesh.stems.positions.size(), mesh.triangleCount()};
+  Counts counts{mesh.stems.positions.size() + mesh.faces.positions.size(), mesh.triangleCount()};
   for (const OrganModel& model : mesh.models)
     for (const ModelPart& part : model.parts) counts.vertices += part.mesh.positions.size() * model.placements.size();
   return counts;
@@ -44,14 +44,20 @@ void append(FlatMesh& flat, const ModelPart& part, const Placement& at, const gl
   flat.sources.insert(flat.sources.end(), part.mesh.triangles.size() / 3, {at.organ, part.material});
 }
 
-void appendStems(FlatMesh& flat, const StemMesh& stems) {
-  flat.positions = stems.positions;
-  flat.normals = stems.normals;
-  flat.colours = stems.colours;
-  flat.triangles = stems.triangles;
-  flat.sources = stems.sources;
-  flat.materials.resize(stems.positions.size());
-  for (std::size_t i = 0; i < stems.triangles.size(); ++i) flat.materials[stems.triangles[i]] = stems.sources[i / 3].material;
+/// `tint` makes faces differ a little, as it does leaves; stems are drawn as they are.
+void append(FlatMesh& flat, const StemMesh& part, Tint tint) {
+  const auto first = static_cast<std::uint32_t>(flat.positions.size());
+  flat.positions.insert(flat.positions.end(), part.positions.begin(), part.positions.end());
+  flat.normals.insert(flat.normals.end(), part.normals.begin(), part.normals.end());
+  flat.colours.insert(flat.colours.end(), part.colours.begin(), part.colours.end());
+  flat.sources.insert(flat.sources.end(), part.sources.begin(), part.sources.end());
+  flat.materials.resize(flat.positions.size());
+  for (std::size_t i = 0; i < part.triangles.size(); ++i) {
+    const std::uint32_t vertex = part.triangles[i];
+    flat.triangles.push_back(first + vertex);
+    flat.materials[first + vertex] = part.sources[i / 3].material;
+    if (tint == Tint::Natural) flat.colours[first + vertex] = part.colours[vertex] * tintOf(part.sources[i / 3].organ, tint);
+  }
 }
 
 }  // namespace
@@ -65,7 +71,8 @@ FlatMesh flattened(const PlantMesh& mesh, Tint tint) {
   flat.materials.reserve(counts.vertices);
   flat.triangles.reserve(counts.triangles * 3);
   flat.sources.reserve(counts.triangles);
-  appendStems(flat, mesh.stems);
+  append(flat, mesh.stems, Tint::None);
+  append(flat, mesh.faces, tint);
   for (const OrganModel& model : mesh.models)
     for (const Placement& at : model.placements)
       for (const ModelPart& part : model.parts)

@@ -52,13 +52,8 @@ class GlbWriter {
     model_.buffers[0].data.reserve(mesh.stems.positions.size() * 32 + mesh.stems.triangles.size() * 4 + 64);
   }
 
-  int addStems() {
-    const StemMesh& stems = mesh_.stems;
-    tinygltf::Primitive primitive = primitiveOf(stems.positions, stems.normals, stems.triangles);
-    primitive.attributes["COLOR_0"] = addColours(stems.colours);
-    primitive.material = stemMaterial();
-    return addMesh("stems", {std::move(primitive)});
-  }
+  int addStems() { return addColoured("stems", mesh_.stems, Surface::Solid); }
+  int addFaces() { return addColoured("faces", mesh_.faces, Surface::Blade); }
 
   /// One mesh that all copies of a model share.
   int addModel(const OrganModel& model) {
@@ -142,6 +137,14 @@ class GlbWriter {
     return static_cast<int>(model_.bufferViews.size() - 1);
   }
 
+  /// A mesh whose colours are in its vertices.
+  int addColoured(const char* name, const StemMesh& part, Surface surface) {
+    tinygltf::Primitive primitive = primitiveOf(part.positions, part.normals, part.triangles);
+    primitive.attributes["COLOR_0"] = addColours(part.colours);
+    primitive.material = addMaterial({.name = name, .colour = glm::vec3(1), .roughness = 0.85f, .surface = surface});
+    return addMesh(name, {std::move(primitive)});
+  }
+
   tinygltf::Accessor& addAccessor(int view, int componentType, int type, std::size_t count) {
     tinygltf::Accessor accessor;
     accessor.bufferView = view;
@@ -223,9 +226,6 @@ class GlbWriter {
     return at->second;
   }
 
-  /// White: the colour is in the vertices.
-  int stemMaterial() { return addMaterial({.name = "stems", .colour = glm::vec3(1), .roughness = 0.85f, .surface = Surface::Solid}); }
-
   const PlantMesh& mesh_;
   tinygltf::Model model_;
   std::map<std::int32_t, int> materials_;
@@ -242,6 +242,7 @@ std::optional<std::string> glbOf(const PlantMesh& mesh, const GlbOptions& option
   GlbWriter writer(mesh);
   std::vector<int> children;
   if (!mesh.stems.triangles.empty()) children.push_back(writer.addNode("stems", writer.addStems()));
+  if (!mesh.faces.triangles.empty()) children.push_back(writer.addNode("faces", writer.addFaces()));
   const ModelStorage storage = storageFor(mesh, options.storage);
   for (const OrganModel& model : mesh.models) {
     if (storage == ModelStorage::Merged) {

@@ -3,7 +3,9 @@
 #include "render/axes.hpp"
 #include "render/colour.hpp"
 #include "render/organ_models.hpp"
+#include "render/parallel.hpp"
 #include "render/tube.hpp"
+#include "render/turtle_shapes.hpp"
 
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
@@ -28,6 +30,8 @@ using simeco::Plant;
 constexpr double radiusOfLength = 0.02, thinnestOfExtent = 2e-4;
 /// Corners of a bent organ nearer to each other than this share of its length are drawn as one.
 constexpr double shortestTrailPiece = 1e-4;
+/// A turtle's lines keep their corners: sharper bends than this are joints, not curves.
+constexpr Angle sharpestTurtleBend = 35_deg;
 /// A stem ends this much thinner than its last segment is, when nothing sits on its tip, and when something does.
 constexpr double freeTipTaper = 0.55, loadedTipTaper = 0.85;
 
@@ -133,18 +137,19 @@ std::vector<bool> loadedTips(const Plant& plant, const PlantAxes& axes) {
 class StemDrawer {
  public:
   StemDrawer(const Plant& plant, const PlantAxes& axes, std::vector<StemLook> looks, StemScale scale)
-      : plant_(plant), looks_(std::move(looks)), scale_(scale), loaded_(loadedTips(plant, axes)), radii_(axes.axes.size()) {}
+      : plant_(plant), looks_(std::move(looks)), scale_(scale), axes_(axes), loaded_(loadedTips(plant, axes)) {}
 
-  [[nodiscard]] TubePath pathOf(const Axis& axis, std::size_t index) {
+  [[nodiscard]] TubePath pathOf(std::size_t index) const {
+    const Axis& axis = axes_.axes[index];
     TubePath path;
     const std::size_t count = axis.organs.size();
     path.nodes.resize(count + 1);
     path.segments.reserve(count);
-    for (std::size_t k = 0; k <= count; ++k) path.nodes[k] = nodeAt(axis, k, loaded_[index] ? loadedTipTaper : freeTipTaper);
+    for (std::size_t k = 0; k <= count; ++k) path.nodes[k] = nodeAt(index, k);
     for (const OrganId id : axis.organs) path.segments.push_back({.organ = id, .material = lookOf(plant_.at(id)).material});
-    for (const TubeNode& node : path.nodes) radii_[index].push_back(node.radius);
+    if (plant_.at(axis.organs.front()).tipRadius) path.sharpestBend = sharpestTurtleBend;
     addTrails(path, axis);
-    if (axis.insertion) path.collar.parentRadius = radii_[static_cast<std::size_t>(axis.insertion->axis.value)][static_cast<std::size_t>(axis.insertion->node)];
+    if (axis.insertion) path.collar.parentRadius = radiusAt(static_cast<std::size_t>(axis.insertion->axis.value), static_cast<std::size_t>(axis.insertion->node));
     return path;
   }
 
@@ -157,19 +162,27 @@ class StemDrawer {
   }
 
   /// Node k of an axis: between two organs it has the mean of their radii and colours.
-  [[nodiscard]] TubeNode nodeAt(const Axis& axis, std::size_t k, double tipTaper) const {
+  [[nodiscard]] TubeNode nodeAt(std::size_t index, std::size_t k) const {
+    const Axis& axis = axes_.axes[index];
     const Organ& before = plant_.at(axis.organs[k == 0 ? 0 : k - 1]);
     const Organ& after = plant_.at(axis.organs[std::min(k, axis.organs.size() - 1)]);
-    const double taper = k == axis.organs.size() ? tipTaper : 1;
-    return {.at = k == 0 ? before.base.at : before.tip().at,
-            .radius = taper * 0.5 * (radiusOf(before, scale_) + radiusOf(after, scale_)),
-            .colour = (colourOf(before) + colourOf(after)) * 0.5f};
+    return {.at = k == 0 ? before.base.at : before.tip().at, .radius = radiusAt(index, k), .colour = (colourOf(before) + colourOf(after)) * 0.5f};
+  }
+
+  /// The radius there. A turtle says how wide each piece is at its tip; elsewhere the tip of a stem is a share of its last radius.
+  [[nodiscard]] double radiusAt(std::size_t index, std::size_t k) const {
+    const Axis& axis = axes_.axes[index];
+    if (k == 0) return radiusOf(plant_.at(axis.organs.front()), scale_);
+    const Organ& before = plant_.at(axis.organs[k - 1]);
+    const double here = before.tipRadius ? std::max(*before.tipRadius, scale_.extent * thinnestOfExtent) : radiusOf(before, scale_);
+    if (k < axis.organs.size()) return 0.5 * (here + radiusOf(plant_.at(axis.organs[k]), scale_));
+    return before.tipRadius ? here : here * (loaded_[index] ? loadedTipTaper : freeTipTaper);
   }
 
   /// Puts the corners of bent organs between their nodes; radius and colour run on along the trail.
   void addTrails(TubePath& path, const Axis& axis) const {
     if (std::none_of(axis.organs.begin(), axis.organs.end(), [&](OrganId id) { return !plant_.at(id).trail.empty(); })) return;
-    TubePath bent{.nodes = {path.nodes.front()}, .segments = {}, .collar = path.collar};
+    TubePath bent{.nodes = {path.nodes.front()}, .segments = {}, .collar = path.collar, .sharpestBend = path.sharpestBend};
     for (std::size_t k = 0; k < axis.organs.size(); ++k) {
       const Organ& organ = plant_.at(axis.organs[k]);
       const TubeNode &from = path.nodes[k], &to = path.nodes[k + 1];
@@ -190,8 +203,8 @@ class StemDrawer {
   const Plant& plant_;
   std::vector<StemLook> looks_;
   StemScale scale_;
+  const PlantAxes& axes_;
   std::vector<bool> loaded_;
-  std::vector<std::vector<double>> radii_;  ///< an axis' radius at each of its nodes, once it is drawn
 };
 
 StemScale stemScaleOf(const Plant& plant, const PlantAxes& axes) {
@@ -208,7 +221,7 @@ Result<void> addStems(PlantMesh& mesh, const Plant& plant, Detail detail, std::s
   TubeBuilder builder;
   builder.expect(plant.organs.size(), axes.axes.size(), tubeDetailFor(detail, 0));
   for (std::size_t i = 0; i < axes.axes.size(); ++i) {
-    const TubePath path = drawer.pathOf(axes.axes[i], i);
+    const TubePath path = drawer.pathOf(i);
     builder.add(path, tubeDetailFor(detail, path.nodes.front().radius / scale.extent));
     if (builder.triangleCount() > maximumTriangles)
       return fail(ErrorCode::LimitReached, "the stems alone have more than " + std::to_string(maximumTriangles) +
@@ -227,13 +240,13 @@ struct ModelSlot {
 
 bool isMainPart(const std::string& name) { return name == "blade" || name == "petal" || name == "flesh"; }
 
-/// The colour of a part once its style has named a colour for the whole organ: the main part takes it, what belongs to a
-/// leaf moves along with it, the inside of a flower stays as it is.
+/// The colour of a part once its style has named a colour for the whole organ: the main part takes it, what belongs to a leaf
+/// and a flower's tube move along with it, the inside of a flower stays as it is.
 glm::vec3 partColour(const organs::Part& part, const std::vector<organs::Part>& parts, const OrganStyle& style) {
   if (!style.colour) return part.colour;
   const glm::vec3 named = naturalColour(*style.colour, style.kind);
   if (isMainPart(part.name) || parts.size() == 1) return named;
-  if (style.kind != OrganKind::Leaf) return part.colour;
+  if (style.kind != OrganKind::Leaf && part.name != "tube") return part.colour;
   const auto blade = std::find_if(parts.begin(), parts.end(), [](const organs::Part& p) { return isMainPart(p.name); });
   const glm::vec3 main = blade == parts.end() ? part.colour : blade->colour;
   return glm::min(part.colour * (named / glm::max(main, glm::vec3(0.01f))), glm::vec3(0.9f));
@@ -324,12 +337,14 @@ Detail detailFor(std::size_t organCount) {
 
 Result<PlantMesh> meshOf(const Plant& plant, const MeshOptions& options) {
   if (const auto checked = checkOrgans(plant); !checked) return checked.failure();
+  if (const auto checked = checkTurtleShapes(plant); !checked) return checked.failure();
   PlantMesh mesh;
   mesh.name = plant.name;
   if (!plant.organs.empty()) mesh.collar = plant.organs.front().base;
   const Detail detail = options.detail.value_or(detailFor(plant.organs.size()));
   if (const auto stems = addStems(mesh, plant, detail, options.maximumTriangles); !stems) return stems.failure();
   addModels(mesh, plant, detail);
+  addTurtleShapes(mesh, plant, detail);
   if (mesh.triangleCount() <= options.maximumTriangles) return mesh;
   return fail(ErrorCode::LimitReached, "the plant has " + std::to_string(mesh.triangleCount()) + " triangles, more than the limit of " +
                                            std::to_string(options.maximumTriangles) + "; grow fewer steps or ask for a lower level of detail");

@@ -11,8 +11,6 @@
 namespace axil::render {
 namespace {
 
-/// A bend sharper than this is no bend of a stem: two tubes meet in a ball.
-constexpr double sharpestBend = 100.0 * std::numbers::pi / 180.0;
 /// Rings between two nodes, at most; keeps a wild curve from filling the memory.
 constexpr int maximumSteps = 16;
 /// How much wider a branch is where it leaves its parent.
@@ -37,9 +35,9 @@ std::vector<Chord> chordsOf(const std::vector<TubeNode>& nodes) {
 
 /// Whether a tube of `radius` can follow the bend between two chords without folding into itself: the arc that fits the
 /// shorter one must be wider than the tube.
-bool needsBall(const Chord& before, const Chord& after, double radius) {
+bool needsBall(const Chord& before, const Chord& after, double radius, Angle sharpestBend) {
   const double bend = angleOf(before.direction, after.direction);
-  if (bend > sharpestBend) return true;
+  if (bend > sharpestBend.radians()) return true;
   return std::min(before.length, after.length) < 2 * radius * std::tan(bend / 2);
 }
 
@@ -162,8 +160,8 @@ std::vector<std::vector<TubeRing>> centreLine(const TubePath& path, const TubeDe
   const std::vector<Chord> chords = chordsOf(nodes);
   std::vector<std::vector<TubeRing>> runs;
   for (std::size_t i = 0; i < chords.size(); ++i) {
-    const bool startsRun = i == 0 || needsBall(chords[i - 1], chords[i], nodes[i].radius);
-    const bool endsRun = i + 1 == chords.size() || needsBall(chords[i], chords[i + 1], nodes[i + 1].radius);
+    const bool startsRun = i == 0 || needsBall(chords[i - 1], chords[i], nodes[i].radius, path.sharpestBend);
+    const bool endsRun = i + 1 == chords.size() || needsBall(chords[i], chords[i + 1], nodes[i + 1].radius, path.sharpestBend);
     const Cubic cubic = cubicAt(nodes, chords, i, startsRun, endsRun);
     const auto segment = static_cast<std::int32_t>(i);
     const TubeCollar collar = i == 0 && detail.capRings > 1 ? path.collar : TubeCollar{};

@@ -6,7 +6,7 @@
 /// third of the segment away along the tangents, so it never strays further than that from the chord; the tangent at a
 /// node is the bisector of the two directions, which is what a centripetal Catmull-Rom spline has there. Rings are placed
 /// where it bends, carried along without twist, and closed by round caps. Where a stem bends sharper than a tube can
-/// follow (over 100 degrees, or within its own radius) two tubes meet in a ball, without a gap.
+/// follow (over `sharpestBend`, or within its own radius) two tubes meet in a ball, without a gap.
 /// Sources: Lee 1989 and Yuksel et al. 2011 (centripetal parametrisation), Wang et al. 2008 (frames by double reflection).
 
 #include "render/types.hpp"
@@ -31,6 +31,7 @@ struct TubePath {
   std::vector<TubeNode> nodes;           ///< at least two, no two neighbours in one place
   std::vector<TriangleSource> segments;  ///< one fewer than nodes: whose triangles these are
   TubeCollar collar;
+  Angle sharpestBend = Angle::fromDegrees(100);  ///< a sharper one is a joint: two tubes meet in a ball
 };
 
 /// How finely a tube is made. `turnPerRing` is how far the centre line may turn from ring to ring.

@@ -44,7 +44,8 @@ struct Material {
   friend bool operator==(const Material&, const Material&) = default;
 };
 
-/// Where a triangle comes from: the organ a click on it means, and what it is made of (index into PlantMesh::materials).
+/// Where a triangle comes from: the organ a click on it means, and what it is made of (index into PlantMesh::materials). What
+/// an L-system's turtle draws beside organs is numbered on after the last organ: faces, then balls, then discs.
 struct TriangleSource {
   simeco::OrganId organ;
   std::int32_t material = 0;
@@ -60,6 +61,11 @@ struct StemMesh {
   std::vector<TriangleSource> sources;     ///< one a triangle
   friend bool operator==(const StemMesh&, const StemMesh&) = default;
 };
+
+/// The numbers of what stands behind the organs in `TriangleSource::organ` and `Placement::organ`.
+[[nodiscard]] simeco::OrganId faceId(const simeco::Plant& plant, std::size_t face);
+[[nodiscard]] simeco::OrganId ballId(const simeco::Plant& plant, std::size_t ball);
+[[nodiscard]] simeco::OrganId discId(const simeco::Plant& plant, std::size_t disc);
 
 /// Where one copy of a model stands: p = position + rotation * (scale * p_model).
 struct Placement {
@@ -89,6 +95,7 @@ struct PlantMesh {
   std::string name;
   std::vector<Material> materials;
   StemMesh stems;
+  StemMesh faces;                          ///< polygons of a turtle: thin, seen from both sides; the same arrays as of stems
   std::vector<OrganModel> models;
   PlantPoint collar;                       ///< where the first stem starts: the ground is at its height
   std::vector<std::string> notes;          ///< what was drawn otherwise than asked, a sentence each

@@ -26,7 +26,7 @@ class PlantMaker : public TurtleSink {
     organ.base = {s.start};
     place(organ, s.frame, s.end - s.start);
     organ.radius = s.startWidth / 2;
-    if (s.endWidth != s.startWidth) organ.tipRadius = s.endWidth / 2;
+    organ.tipRadius = s.endWidth / 2;
     origin(organ, s.module);
     organOf_.push_back(static_cast<std::int32_t>(plant_.organs.size()));
     reach(s.start);
@@ -36,11 +36,13 @@ class PlantMaker : public TurtleSink {
 
   void surface(const TurtleSurface& s) override {
     Organ organ;
-    organ.kind = OrganKind::Leaf;
-    organ.style = style(OrganKind::Leaf, s.colour, std::string(1, s.name));
+    const auto known = view_.surfaces.find(s.name);
+    const ViewSurface drawn = known == view_.surfaces.end() ? ViewSurface{.kind = OrganKind::Leaf, .model = std::string(1, s.name), .scale = 1} : known->second;
+    organ.kind = drawn.kind;
+    organ.style = style(drawn.kind, s.colour, drawn.model);
     organ.branch = true;
     organ.base = {s.frame.position};
-    place(organ, s.frame, s.frame.heading * s.size.y);
+    place(organ, s.frame, s.frame.heading * (s.size.y * drawn.scale));
     origin(organ, s.module);
     reach(organ.tip().at);
     plant_.organs.push_back(std::move(organ));
@@ -76,6 +78,7 @@ class PlantMaker : public TurtleSink {
 
   Plant finish(const std::string& name, double pixelsAcross) {
     plant_.name = name;
+    plant_.rules = derivation_.rules;
     plant_.time = static_cast<double>(derivation_.modulesPerStep.size());
     if (view_.lineStyle == LineStyle::Pixel) scaleWidths(extent() / std::max(pixelsAcross, 1.0));
     return std::move(plant_);
@@ -110,7 +113,8 @@ class PlantMaker : public TurtleSink {
     style.stage = colour;
     style.model = model;
     // What keeps the colour it started with looks as its kind does.
-    if (colour != view_.colour) style.colour = colourOfIndex(colour);
+    if (const auto painted = view_.colours.find(colour); painted != view_.colours.end()) style.colour = painted->second;
+    else if (colour != view_.colour) style.colour = colourOfIndex(colour);
     plant_.styles.push_back(std::move(style));
     return found->second;
   }
@@ -159,7 +163,10 @@ Result<Plant> plantOfDerivation(const Grammar& grammar, const Derivation& deriva
 }
 
 Result<Plant> plantOfLSystem(const Grammar& grammar, const LSystemPlantOptions& options) {
-  const auto derivation = deriveLSystem(grammar, options.derive);
+  // What is drawn knows its rule, so the derivation is traced.
+  DeriveLSystemOptions derive = options.derive;
+  derive.derive.traced = true;
+  const auto derivation = deriveLSystem(grammar, derive);
   if (!derivation) return derivation.failure();
   return plantOfDerivation(grammar, *derivation, options);
 }

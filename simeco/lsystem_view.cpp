@@ -57,7 +57,7 @@ std::string lowered(std::string_view text) {
 constexpr std::string_view kPassedOver[] = {
     "scale factor", "scale", "min zoom", "max zoom", "front distance", "back distance", "projection", "render mode", "z buffer",
     "cue range", "shade mode", "light", "light direction", "diffuse reflection", "ambient light", "viewpoint", "view reference point", "twist",
-    "view", "surface", "surface ambient", "surface diffuse", "contour", "contours", "contour sides", "texture", "bsurface", "tsurface", "mesh",
+    "view", "surface ambient", "surface diffuse", "contour", "contours", "contour sides", "texture", "bsurface", "tsurface", "mesh",
     "function", "function set", "color map", "colormap", "background", "background scene", "double buffer", "new frame", "box", "frame", "stroke",
     "field of view", "font", "winding", "generate on view change", "corrected rotation", "cut", "concave polygons", "line caps", "initial contour",
     "initial color back", "terrain", "axis", "axes", "shininess", "specular", "material", "gradient map", "homomorphism", "module", "modules",
@@ -113,6 +113,8 @@ class ViewReader {
     else if (keyword == "scale multiplier") view_.scaleMultiplier = size(view_.scaleMultiplier);
     else if (keyword == "initial color" || keyword == "initial colour") view_.colour = colour(128);
     else if (keyword == "color increment" || keyword == "colour increment") view_.colourIncrement = colour(1);
+    else if (keyword == "color" || keyword == "colour") paint();
+    else if (keyword == "surface") surface();
     else if (keyword == "line style") lineStyle();
     else if (keyword == "tapered lines") view_.taperedLines = onOff(true);
     else if (keyword == "interpretation past %") view_.pastCut = onOff(true);
@@ -124,7 +126,7 @@ class ViewReader {
 
   void unknown(const std::string& keyword, std::string_view) {
     static constexpr std::string_view kKnown[] = {"angle increment", "angle factor", "initial line width", "line width increment", "initial scale",
-                                                  "scale multiplier", "initial color", "color increment", "tapered lines", "line style", "interpretation past %",
+                                                  "scale multiplier", "initial color", "color increment", "color", "surface", "tapered lines", "line style", "interpretation past %",
                                                   "tropism", "torque", "tropism direction", "initial elasticity"};
     report_.warning(where_, "the setting '" + keyword + "' is not known and not used", didYouMean(keyword, kKnown));
   }
@@ -141,6 +143,33 @@ class ViewReader {
     else if (value == "polygon") view_.lineStyle = LineStyle::Polygon;
     else if (value == "cylinder") view_.lineStyle = LineStyle::Cylinder;
     else error(where_.begin, where_.end, "a line style is pixel, polygon or cylinder", "");
+  }
+
+  /// `color: INDEX RED GREEN BLUE`, 0 to 255 each.
+  void paint() {
+    double values[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto value = number(i);
+      if (!value) return;
+      if (*value < 0 || *value > 255) return error(where_.begin, where_.end, "an index, red, green and blue are 0 to 255 each", "color: 3 255 250 240");
+      values[i] = *value;
+    }
+    view_.colours[static_cast<int>(values[0])] = {values[1] / 255, values[2] / 255, values[3] / 255, 1};
+  }
+
+  /// `surface: LETTER [leaf|flower|fruit] SHAPE [SCALE]`. What follows, as the reference program has it, concerns its own files.
+  void surface() {
+    if (values_.size() < 2 || values_[0].text.size() != 1) return error(where_.begin, where_.end, "a surface is a letter and a shape", "surface: l leaf ovate 0.5");
+    ViewSurface result;
+    std::size_t at = 1;
+    const std::string kind = lowered(values_[at].text);
+    if (values_.size() > 2 && (kind == "leaf" || kind == "flower" || kind == "fruit")) {
+      result.kind = kind == "leaf" ? OrganKind::Leaf : kind == "flower" ? OrganKind::Flower : OrganKind::Fruit;
+      ++at;
+    }
+    result.model = std::string(values_[at].text);
+    if (values_.size() > at + 1) result.scale = number(at + 1).value_or(1);
+    view_.surfaces[values_[0].text[0]] = result;
   }
 
   OldTropism& old() {

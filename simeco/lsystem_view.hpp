@@ -7,10 +7,13 @@
 #include "base/angle.hpp"
 #include "base/result.hpp"
 #include "base/source.hpp"
+#include "simeco/grammar.hpp"
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,6 +40,13 @@ struct OldTropism {
 /// How thick a line is: so many pixels, or so much of the plant's unit.
 enum class LineStyle { Pixel, Polygon, Cylinder };
 
+/// `surface: l leaf ovate 0.5`: what `~l` draws, an organ of the project's own by kind and shape.
+struct ViewSurface {
+  OrganKind kind = OrganKind::Leaf;
+  std::string model;
+  double scale = 1;
+};
+
 struct LSystemView {
   Angle angleIncrement = Angle::fromDegrees(45);
   double lineWidth = 1;
@@ -50,6 +60,8 @@ struct LSystemView {
   bool pastCut = true;         ///< whether what stands behind % is drawn
   std::vector<Tropism> tropisms;
   std::optional<OldTropism> oldTropism;
+  std::map<int, glm::dvec4> colours;      ///< `color: 3 255 250 240`: sRGB 0 to 1 of some indices; the others are on the colour circle
+  std::map<char, ViewSurface> surfaces;   ///< by letter
 };
 
 struct ParsedView {

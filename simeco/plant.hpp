@@ -8,6 +8,7 @@
 #include "base/ids.hpp"
 #include "base/source.hpp"
 #include "simeco/grammar.hpp"
+#include "simeco/rule_info.hpp"
 
 #include <glm/vec4.hpp>
 
@@ -43,7 +44,7 @@ struct Organ {
   PlantDirection adaxial = PlantDirection::along({0, 0, 1});  ///< upper side of a blade, perpendicular to direction
   double length = 0;
   double radius = 0;                     ///< half the width: of a stem's body, else of the organ at its widest (0: by its shape)
-  std::optional<double> tipRadius = {};  ///< of a tapered stem: the radius at its tip; without it a stem is as wide as its neighbours say
+  std::optional<double> tipRadius = {};  ///< of a turtle's stem: the radius at its tip; without it a stem is as wide as its neighbours say
   double age = 0;                        ///< in the grammar's time, since birth
   std::int32_t production = -1;          ///< rule that made it, in text order over all plants; -1: the axiom
   std::int64_t module = -1;              ///< which module of the string it is; -1: a body that stayed behind when it was rewritten
@@ -99,6 +100,7 @@ struct Plant {
   std::vector<PlantFace> faces = {};     ///< faces, balls and discs: of L-systems only
   std::vector<PlantBall> balls = {};
   std::vector<PlantDisc> discs = {};
+  RuleList rules = {};                   ///< what a `production` number means: the rule's wording and its place in the text
 
   [[nodiscard]] const Organ& at(OrganId id) const { return organs[static_cast<std::size_t>(id.value)]; }
   [[nodiscard]] const OrganStyle& styleOf(const Organ& organ) const { return styles[static_cast<std::size_t>(organ.style)]; }

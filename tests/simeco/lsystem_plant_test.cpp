@@ -22,7 +22,7 @@ TEST(LSystemPlant, SegmentsAreStemsThatKnowTheirParents) {
   EXPECT_EQ(trunk.kind, OrganKind::Stem);
   EXPECT_DOUBLE_EQ(trunk.length, 3);
   EXPECT_DOUBLE_EQ(trunk.radius, 1);
-  EXPECT_FALSE(trunk.tipRadius);
+  EXPECT_EQ(trunk.tipRadius, trunk.radius);
   EXPECT_EQ(plant->organs[1].parent, OrganId(0));
   EXPECT_TRUE(plant->organs[1].branch);
   EXPECT_EQ(plant->organs[1].direction, PlantDirection::along({-1, 0, 0}));
