@@ -20,7 +20,7 @@ std::vector<Origin> stepped(const std::vector<Origin>& before, const StepTrace& 
   std::vector<Origin> after(trace.begin.back());
   for (std::size_t i = 0; i < trace.rule.size(); ++i)
     for (std::size_t module = trace.begin[i]; module < trace.begin[i + 1]; ++module)
-      after[module] = trace.rule[i] == StepTrace::copied ? before[i] : Origin{trace.rule[i], static_cast<std::int32_t>(step)};
+      after[module] = trace.maker[module] == StepTrace::copied ? before[i] : Origin{trace.maker[module], static_cast<std::int32_t>(step)};
   return after;
 }
 
@@ -64,6 +64,7 @@ Result<Derivation> derive(const Grammar& grammar, const DeriveOptions& options) 
   derivation.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (auto finished = (*engine)->finish(); !finished) return finished.failure();
   derivation.variables = (*engine)->variables();
+  derivation.rules = RuleList((*engine)->program().rules);
   derivation.peakBytes = (*engine)->peakBytes();
   derivation.warnings = (*engine)->warnings();
   derivation.string = (*engine)->takeString();

@@ -14,7 +14,9 @@
 #include "base/progress.hpp"
 #include "base/result.hpp"
 #include "simeco/grammar.hpp"
+#include "simeco/lsystem_files.hpp"
 #include "simeco/module_string.hpp"
+#include "simeco/rule_info.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -43,10 +45,12 @@ struct Limits {
 
 class Engine;
 
-/// A string as it is drawn: the homomorphism applied. `source[i]` is the module of the derived string that became module i.
+/// A string as it is drawn: the homomorphism applied. `source[i]` is the module of the derived string that became module i, `drawnBy[i]` the
+/// homomorphism rule that wrote it (-1: none, it is drawn as it is); empty where there is no homomorphism.
 struct Image {
   ModuleString string;
   std::vector<std::uint32_t> source;
+  std::vector<std::int32_t> drawnBy = {};
 };
 
 /// What a host may look at and change between two steps.
@@ -54,6 +58,7 @@ class HostStep {
  public:
   explicit HostStep(Engine& engine) : engine_(engine) {}
   [[nodiscard]] std::int64_t step() const;            ///< steps done so far
+  [[nodiscard]] bool finished() const;                ///< the last step is done, nothing follows
   [[nodiscard]] const ModuleString& string() const;
   /// All parameters of the string, in order; a host writes the answers to query and communication modules here.
   [[nodiscard]] std::span<double> parameters();
@@ -61,6 +66,12 @@ class HostStep {
   [[nodiscard]] std::optional<double> variable(std::string_view name) const;
   /// False when the grammar has no such variable.
   [[nodiscard]] bool setVariable(std::string_view name, double value);
+  /// Rewrites the selected modules by the first interaction rule that applies to each, or by rule number `rule` of them alone; without
+  /// interaction rules by the productions. All others are copied. Not a step of the derivation; how many modules were rewritten.
+  /// Fails with BadInput for a module or a rule that is not there. (RTIL-system 2010, interaction)
+  [[nodiscard]] Result<std::size_t> interact(std::span<const std::size_t> modules, std::optional<std::size_t> rule = {});
+  /// Removes the selected modules with all that stands on them: up to the bracket that closes their branch. Branches before them stay.
+  [[nodiscard]] Result<void> prune(std::span<const std::size_t> modules);
 
  private:
   Engine& engine_;
@@ -72,6 +83,7 @@ struct Host {
   std::function<Result<void>(std::span<double> variables)> exchange;                           ///< com(...), changes them in place
   std::function<Result<void>(HostStep& step)> betweenSteps;  ///< before every step, and once after the last
   std::function<void(std::string_view text)> print;          ///< printf
+  FileHost files;                                            ///< fopen, fclose, fscanf; none: no file can be opened
 };
 
 struct DeriveOptions {
@@ -86,7 +98,8 @@ struct DeriveOptions {
   Host host = {};
 };
 
-/// Where a module comes from: production number (text order within its plant; -1: the axiom) and the step that made it.
+/// Where a module comes from: the rule that wrote it (index into Derivation::rules, where the productions of the plant's own L-system
+/// come first, in text order; -1: the axiom) and the step that made it.
 struct Origin {
   std::int32_t production = -1;
   std::int32_t step = 0;
@@ -103,6 +116,7 @@ struct Derivation {
   std::map<std::string, double> variables;  ///< the global variables of the L-system at the end
   std::vector<std::string> warnings;
   std::vector<Origin> origins;              ///< one a module when `traced`
+  RuleList rules;                           ///< all rules of the plant, by number
   std::shared_ptr<const Engine> engine;     ///< what `imageOf` needs
 };
 

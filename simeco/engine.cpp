@@ -133,6 +133,20 @@ void Engine::State::exchange() {
   string.identityBuffer().swap(spare.identities);
 }
 
+std::size_t Engine::State::expectedModules() const {
+  return std::min(static_cast<std::size_t>(grownCodes * static_cast<double>(string.size())), options.limits.modules);
+}
+std::size_t Engine::State::expectedNumbers() const {
+  return std::min(static_cast<std::size_t>(grownNumbers * static_cast<double>(string.size())), options.limits.bytes / sizeof(double));
+}
+
+void Engine::State::noteGrowth() {
+  constexpr double spareRoom = 1.06;
+  const auto size = static_cast<double>(std::max<std::size_t>(string.size(), 1));
+  grownCodes = spareRoom * static_cast<double>(spare.codes.size()) / size;
+  grownNumbers = spareRoom * static_cast<double>(spare.parameters.size()) / size;
+}
+
 void Engine::State::notePeak(std::size_t more) { peak = std::max(peak, held(*this) + more); }
 
 // ---- Engine ----------------------------------------------------------------------------------------------------------
@@ -272,6 +286,7 @@ Result<void> Engine::finish() {
   State& s = *state_;
   if (s.steps > 0)
     if (auto done = s.runHeader(s.program->main().end, s.main, 4); !done) return done;
+  s.finished = true;
   if (!s.options.host.betweenSteps) return {};
   HostStep view(*this);
   return s.options.host.betweenSteps(view);
@@ -316,8 +331,45 @@ bool Engine::setVariable(std::string_view name, double value) {
   return true;
 }
 
+namespace {
+
+/// Which of `size` modules are selected; fails when one is not there.
+Result<std::vector<bool>> selectionOf(std::span<const std::size_t> modules, std::size_t size) {
+  std::vector<bool> selected(size);
+  for (const std::size_t module : modules) {
+    if (module >= size)
+      return fail(ErrorCode::BadInput, "module " + std::to_string(module) + " is selected, but the string has " + std::to_string(size) + " modules, counted from 0");
+    selected[module] = true;
+  }
+  return selected;
+}
+
+}  // namespace
+
+Result<std::size_t> Engine::interact(std::span<const std::size_t> modules, std::optional<std::size_t> rule) {
+  State& s = *state_;
+  const auto selected = selectionOf(modules, s.string.size());
+  if (!selected) return selected.failure();
+  const System& main = s.program->main();
+  const std::size_t rules = (main.interaction.empty() ? main.productions : main.interaction).rules.size();
+  if (rule && *rule >= rules)
+    return fail(ErrorCode::BadInput, "interaction rule number " + std::to_string(*rule) + " is asked for, but there are " + std::to_string(rules) + ", counted from 0");
+  return s.interactWith(*selected, rule);
+}
+
+Result<void> Engine::prune(std::span<const std::size_t> modules) {
+  const auto selected = selectionOf(modules, state_->string.size());
+  if (!selected) return selected.failure();
+  return state_->pruneAt(*selected);
+}
+
+bool Engine::finished() const { return state_->finished; }
+
 // ---- HostStep --------------------------------------------------------------------------------------------------------
 
+bool HostStep::finished() const { return engine_.finished(); }
+Result<std::size_t> HostStep::interact(std::span<const std::size_t> modules, std::optional<std::size_t> rule) { return engine_.interact(modules, rule); }
+Result<void> HostStep::prune(std::span<const std::size_t> modules) { return engine_.prune(modules); }
 std::int64_t HostStep::step() const { return engine_.stepsDone(); }
 const ModuleString& HostStep::string() const { return engine_.string(); }
 std::span<double> HostStep::parameters() { return engine_.parameters(); }

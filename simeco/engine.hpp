@@ -25,6 +25,7 @@ struct StepTrace {
   static constexpr std::int32_t consumed = -3;  ///< a further module of the predecessor before it
   std::vector<std::int32_t> rule;               ///< production number, or one of the above
   std::vector<std::uint32_t> begin;             ///< first module that it became, one more entry than `rule`
+  std::vector<std::int32_t> maker;              ///< of every new module the rule that wrote it (decomposition rules too), or `copied`
 };
 
 struct EngineOptions {
@@ -76,6 +77,10 @@ class Engine {
   [[nodiscard]] std::vector<std::string> warnings() const;
   [[nodiscard]] std::map<std::string, double> variables() const;
   [[nodiscard]] bool setVariable(std::string_view name, double value);
+  /// As HostStep's.
+  [[nodiscard]] Result<std::size_t> interact(std::span<const std::size_t> modules, std::optional<std::size_t> rule);
+  [[nodiscard]] Result<void> prune(std::span<const std::size_t> modules);
+  [[nodiscard]] bool finished() const;
 
   struct State;  ///< engine_state.hpp
 

@@ -28,14 +28,12 @@ void Calm::readTables(const ModuleString& string) {
   left_.setSize(codes.size());
   right_.setSize(codes.size());
   withOffsets_ = !string.parameters().empty();
-  if (withOffsets_) offset_.setSize(codes.size());
-  std::uint32_t last = nowhere, offset = 0;
+  if (withOffsets_) offsets_.read(program_, codes);
+  std::uint32_t last = nowhere;
   // The stack holds, for every open bracket, its place and the left neighbour before it.
   stack_.clear();
   for (std::uint32_t i = 0; i < codes.size(); ++i) {
     const SymbolCode code = codes[i];
-    if (withOffsets_) offset_[i] = offset;
-    offset += program_.parameterCount[code];
     left_[i] = last;
     if (role(code) == Plans::Considered) last = i;
     if (role(code) == Plans::Opens) {
@@ -77,11 +75,11 @@ bool Calm::fits(SymbolCode code, const CompiledSuccessor& successor) const {
 }
 
 /// What the step does with one module; false when it does not fit in place.
-bool Calm::decide(const ModuleString& string, std::uint32_t at, Machine& machine) {
+bool Calm::decide(const ModuleString& string, std::uint32_t at, std::uint32_t offset, Machine& machine) {
   const std::span<const SymbolCode> codes = string.codes();
   const SymbolCode code = codes[at];
   const Plan& plan = plans_.bySymbol[code];
-  double* const locals = const_cast<double*>(string.parameters().data()) + (withOffsets_ ? offset_[at] : 0);
+  double* const locals = const_cast<double*>(string.parameters().data()) + offset;
   const auto holds = [&](const CompiledRule& rule) {
     for (const Demand& demand : rule.predecessor.front().demands)
       if (locals[demand.offset] != demand.value) return false;
@@ -115,11 +113,14 @@ bool Calm::decide(const ModuleString& string, std::uint32_t at, Machine& machine
 bool Calm::collect(const ModuleString& string, Machine& machine) {
   changes_.clear();
   if (known_) {
-    return std::all_of(candidates_.begin(), candidates_.end(), [&](std::uint32_t at) { return decide(string, at, machine) && !machine.trouble(); });
+    return std::all_of(candidates_.begin(), candidates_.end(), [&](std::uint32_t at) { return decide(string, at, offsetOf(at), machine) && !machine.trouble(); });
   }
   readTables(string);
-  for (std::uint32_t at = 0; at < string.size(); ++at)
-    if (!decide(string, at, machine) || machine.trouble() || changes_.size() > string.size() / kShare) return false;
+  std::uint32_t offset = 0;
+  for (std::uint32_t at = 0; at < string.size(); ++at) {
+    if (!decide(string, at, offset, machine) || machine.trouble() || changes_.size() > string.size() / kShare) return false;
+    offset += program_.parameterCount[string.codes()[at]];
+  }
   return true;
 }
 
@@ -129,7 +130,7 @@ void Calm::apply(ModuleString& string, Machine& machine, bool singlePrecision) {
   computed_.clear();
   for (const Change& change : changes_)
     for (const Term& term : change.rule->successors.front().terms) {
-      const double value = machine.value(term, numbers + offset_[change.module]);
+      const double value = machine.value(term, numbers + offsetOf(change.module));
       computed_.push_back(singlePrecision ? static_cast<double>(static_cast<float>(value)) : value);
     }
   const auto finite = [](double value) { return std::isfinite(value); };
@@ -143,8 +144,9 @@ void Calm::apply(ModuleString& string, Machine& machine, bool singlePrecision) {
     SymbolCode& code = string.codeBuffer()[change.module];
     bool differs = code != successor.codes.front();
     code = successor.codes.front();
+    double* const own = successor.terms.empty() ? numbers : numbers + offsetOf(change.module);
     for (std::size_t i = 0; i < successor.terms.size(); ++i, ++next) {
-      double& number = numbers[offset_[change.module] + i];
+      double& number = own[i];
       differs = differs || std::memcmp(&number, &computed_[next], sizeof number) != 0;
       number = computed_[next];
     }

@@ -6,6 +6,7 @@
 /// Private to the engine's plain way.
 
 #include "simeco/engine_machine.hpp"
+#include "simeco/engine_offsets.hpp"
 #include "simeco/engine_plan.hpp"
 
 #include <cstdint>
@@ -27,7 +28,7 @@ class Calm {
   /// The string was rewritten another way, by `fired` rules.
   void disturbed(std::size_t fired);
 
-  [[nodiscard]] std::size_t bytes() const { return left_.bytes() + right_.bytes() + offset_.bytes(); }
+  [[nodiscard]] std::size_t bytes() const { return left_.bytes() + right_.bytes() + offsets_.bytes() + stack_.bytes(); }
   [[nodiscard]] const CompiledRule* lastRule() const { return lastRule_; }
 
  private:
@@ -39,7 +40,8 @@ class Calm {
 
   void readTables(const ModuleString& string);
   [[nodiscard]] bool collect(const ModuleString& string, Machine& machine);
-  [[nodiscard]] bool decide(const ModuleString& string, std::uint32_t at, Machine& machine);
+  [[nodiscard]] bool decide(const ModuleString& string, std::uint32_t at, std::uint32_t offset, Machine& machine);
+  [[nodiscard]] std::uint32_t offsetOf(std::uint32_t at) const { return withOffsets_ ? offsets_.of(at) : 0; }
   [[nodiscard]] bool fits(SymbolCode code, const CompiledSuccessor& successor) const;
   void apply(ModuleString& string, Machine& machine, bool singlePrecision);
   void lookAgain(const ModuleString& string);
@@ -51,7 +53,8 @@ class Calm {
   const Plans& plans_;
   std::size_t fewest_;
   // Neighbours of every module that is no bracket; for brackets left_ holds the partner.
-  Buffer<std::uint32_t> left_, right_, offset_;
+  Buffer<std::uint32_t> left_, right_;
+  Offsets offsets_;
   Buffer<std::uint32_t> stack_;
   bool withOffsets_ = false;         ///< there are parameters
   bool known_ = false;               ///< tables and candidates describe the string

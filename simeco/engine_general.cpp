@@ -25,6 +25,25 @@ class Pass {
     locals_.resize(frame);
   }
 
+  /// Only these modules are rewritten, by interaction rules (by productions, where there are none), or by that one of them.
+  void select(const std::vector<bool>& selected, std::optional<std::size_t> rule) {
+    selected_ = &selected;
+    onlyRule_ = rule;
+  }
+  /// The string without the selected modules and all that stands on them.
+  bool prune(const std::vector<bool>& selected, Arrays& out) {
+    out_ = &out;
+    enter(nullptr);
+    for (std::size_t at = 0; at < old_.codes.size();) {
+      if (!lookUp(at)) return false;
+      if (selected[at] && !program_.closes[old_.codes[at]])
+        cutAt(at);
+      else
+        copyModule(at);
+    }
+    return true;
+  }
+
   /// One derivation step into `out`.
   bool derive(Arrays& out) {
     out_ = &out;
@@ -40,7 +59,11 @@ class Pass {
         if (!leaveVisit(at)) return false;
         continue;
       }
-      if (code == program_.cut && system_->productions.bySymbol[code].all.empty()) {
+      if (selected_ != nullptr && !(*selected_)[at]) {
+        copyModule(at);
+        continue;
+      }
+      if (code == program_.cut && selected_ == nullptr && system_->productions.bySymbol[code].all.empty()) {
         cutAt(at);
         continue;
       }
@@ -61,9 +84,11 @@ class Pass {
   }
 
   /// The homomorphism of the whole string into `out`, with the source of each module.
-  bool draw(Arrays& out, std::vector<std::uint32_t>& source) {
+  bool draw(Arrays& out, Image& image) {
     out_ = &out;
-    source_ = &source;
+    source_ = &image.source;
+    if (std::any_of(program_.systems.begin(), program_.systems.end(), [](const System& system) { return !system.homomorphism.empty(); }))
+      drawnBy_ = &image.drawnBy;
     enter(nullptr);
     for (std::size_t at = 0; at < old_.codes.size();) {
       if (!lookUp(at)) return false;
@@ -156,6 +181,10 @@ class Pass {
  private:
   // ---- one module of the old string --------------------------------------------------------------------------------
 
+  /// Notes who wrote the last modules of the new string, up to its end.
+  void madeBy(std::int32_t rule) {
+    if (trace_ != nullptr) trace_->maker.resize(out_->codes.size(), rule);
+  }
   /// Notes what became of `count` modules, whose successor stands from `first` on in the new string.
   void traced(std::size_t count, std::int32_t rule, std::size_t first) {
     if (trace_ == nullptr) return;
@@ -172,6 +201,7 @@ class Pass {
   void copyModule(std::size_t& at) {
     traced(1, StepTrace::copied, out_->codes.size());
     put(old_.codes[at], old_.parameters.data() + parameter_, old_.who(at));
+    madeBy(StepTrace::copied);
     advance(at, 1);
   }
 
@@ -224,22 +254,26 @@ class Pass {
     return !rule.hasCondition || machine_.value(rule.condition, locals) != 0;
   }
 
+  [[nodiscard]] const RuleTable& table() const {
+    return selected_ != nullptr && !system_->interaction.empty() ? system_->interaction : system_->productions;
+  }
   bool rewrite(std::size_t& at) {
-    const RuleIndex& index = system_->productions.bySymbol[old_.codes[at]];
+    const RuleIndex& index = table().bySymbol[old_.codes[at]];
     if (index.all.empty()) return keep(at);
-    if (identified_) machine_.setRandom(s_.stream(Stream::Choice, static_cast<std::uint64_t>(s_.steps), old_.who(at)));
+    if (identified_) machine_.setRandom(s_.stream(selected_ != nullptr ? Stream::Interaction : Stream::Choice, static_cast<std::uint64_t>(s_.steps), old_.who(at)));
     return system_->stochastic ? rewriteByWeight(index, at) : rewriteByFirst(index, at);
   }
 
   bool keep(std::size_t& at) {
-    if (system_->decomposition.empty() || system_->decomposition.bySymbol[old_.codes[at]].all.empty()) {
+    if (selected_ != nullptr || system_->decomposition.empty() || system_->decomposition.bySymbol[old_.codes[at]].all.empty()) {
       copyModule(at);
       return true;
     }
     const std::size_t first = out_->codes.size();
     pushModule(at);
+    expandedFirst_ = StepTrace::copied;
     if (!emptyLists(system_->decomposition, at, at)) return false;
-    traced(1, StepTrace::copied, first);
+    traced(1, expandedFirst_, first);
     advance(at, 1);
     return true;
   }
@@ -251,7 +285,8 @@ class Pass {
 
   bool rewriteByFirst(const RuleIndex& index, std::size_t& at) {
     for (const std::uint32_t number : candidates(index, old_.parameters.data() + parameter_)) {
-      const CompiledRule& rule = system_->productions.rules[number];
+      const CompiledRule& rule = table().rules[number];
+      if (onlyRule_ && *onlyRule_ != number) continue;
       const bool fires = applies(rule, at, locals_.data());
       if (machine_.trouble()) return inTrouble(rule);
       if (fires) return fire(rule, at, locals_.data());
@@ -265,7 +300,8 @@ class Pass {
     std::size_t used = 0;
     double sum = 0;
     for (const std::uint32_t number : candidates(index, old_.parameters.data() + parameter_)) {
-      const CompiledRule& rule = system_->productions.rules[number];
+      const CompiledRule& rule = table().rules[number];
+      if (onlyRule_ && *onlyRule_ != number) continue;
       if (frames_.size() < used + frame_) frames_.resize(used + frame_);
       double* locals = frames_.data() + used;
       const bool joins = applies(rule, at, locals);
@@ -316,11 +352,12 @@ class Pass {
     if (system_->decomposition.empty()) {
       if (!write(rule, *successor, locals, old_.who(at), *out_)) return false;
       noteVisits(first);
+      madeBy(static_cast<std::int32_t>(rule.id));
     } else {
       if (!pushSuccessor(rule, *successor, locals, old_.who(at), 0)) return false;
       if (!emptyLists(system_->decomposition, at, at + consumed - 1)) return false;
     }
-    traced(consumed, static_cast<std::int32_t>(rule.number), first);
+    traced(consumed, static_cast<std::int32_t>(rule.id), first);
     advance(at, consumed);
     return true;
   }
@@ -389,7 +426,7 @@ class Pass {
   bool pushSuccessor(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, std::uint64_t who, int depth) {
     const std::size_t codes = lists_.codes.size(), parameters = lists_.parameters.size();
     if (!write(rule, successor, locals, who, lists_)) return false;
-    cursors_.push_back({codes, lists_.codes.size(), parameters, codes, parameters, depth});
+    cursors_.push_back({codes, lists_.codes.size(), parameters, codes, parameters, depth, static_cast<std::int32_t>(rule.id)});
     return true;
   }
 
@@ -441,6 +478,7 @@ class Pass {
     if (!rule.after.empty()) machine_.run(rule.after, locals_.data());
     if (machine_.trouble()) return inTrouble(rule);
     ++fired_;
+    if (expandedFirst_ == StepTrace::copied) expandedFirst_ = static_cast<std::int32_t>(rule.id);
     const CompiledSuccessor* successor = choose(rule, locals_.data());
     if (successor == nullptr) return false;
     return pushSuccessor(rule, *successor, locals_.data(), who, depth);
@@ -455,7 +493,9 @@ class Pass {
     Cursor& cursor = cursors_.back();
     if (!hasRoom(1, program_.parameterCount[code], nullptr)) return false;
     put(code, lists_.parameters.data() + cursor.parameter, whoListed());
+    madeBy(cursor.rule);
     if (source_ != nullptr) source_->push_back(sourceNow_);
+    if (drawnBy_ != nullptr) drawnBy_->push_back(cursor.rule);
     if (source_ == nullptr && code == program_.enter) newVisits_.emplace_back().system = unknownSystem;
     cursor.parameter += program_.parameterCount[code];
     ++cursor.at;
@@ -492,6 +532,7 @@ class Pass {
     if (!hasRoom(1, program_.parameterCount[old_.codes[at]], nullptr)) return false;
     put(old_.codes[at], old_.parameters.data() + parameter_, old_.who(at));
     source_->push_back(sourceNow_);
+    if (drawnBy_ != nullptr) drawnBy_->push_back(-1);
     advance(at, 1);
     return true;
   }
@@ -534,6 +575,10 @@ class Pass {
   std::optional<Matcher> matcher_;
   Arrays* out_ = nullptr;
   std::vector<std::uint32_t>* source_ = nullptr;
+  std::vector<std::int32_t>* drawnBy_ = nullptr;
+  std::int32_t expandedFirst_ = StepTrace::copied;  ///< the rule that decomposed a module of the old string first
+  const std::vector<bool>* selected_ = nullptr;
+  std::optional<std::size_t> onlyRule_;
   std::uint32_t sourceNow_ = 0;
   std::size_t parameter_ = 0;  ///< of the module at hand
   std::size_t fired_ = 0;
@@ -556,11 +601,15 @@ class Pass {
 Result<std::size_t> Engine::State::generalStep(StepTrace* trace) {
   if (trace != nullptr) *trace = {};
   around.read(*program, program->main().ignored, needs, string.codes());
+  spare.codes.reserve(expectedModules());
+  spare.parameters.reserve(expectedNumbers());
+  if (identified) spare.identities.reserve(expectedModules());
   Pass pass(*this, string, trace);
   if (!pass.derive(spare)) return pass.failure();
   if (!pass.nameVisits(spare.codes.span(), spare.parameters.span())) return pass.failure();
   pass.moveVisits();
   visits = pass.takeVisits();
+  noteGrowth();
   if (pass.depthReached()) note("the maximum depth of the decomposition kept rules from being applied");
   return pass.fired();
 }
@@ -574,6 +623,29 @@ void Engine::State::survey() {
   machine().clearTrouble();
 }
 
+Result<std::size_t> Engine::State::interactWith(const std::vector<bool>& selected, std::optional<std::size_t> rule) {
+  std::fill(made.begin(), made.end(), 0);
+  spare.clear();
+  around.read(*program, program->main().ignored, needs, string.codes());
+  Pass pass(*this, string, nullptr);
+  pass.select(selected, rule);
+  if (!pass.derive(spare) || !pass.nameVisits(spare.codes.span(), spare.parameters.span())) return pass.failure();
+  pass.moveVisits();
+  visits = pass.takeVisits();
+  exchange();
+  if (calm) calm->disturbed(string.size());
+  return pass.fired();
+}
+
+Result<void> Engine::State::pruneAt(const std::vector<bool>& selected) {
+  spare.clear();
+  Pass pass(*this, string, nullptr);
+  if (!pass.prune(selected, spare)) return pass.failure();
+  exchange();
+  if (calm) calm->disturbed(string.size());
+  return findVisits();
+}
+
 Result<void> Engine::State::findVisits() {
   Pass pass(*this, string, nullptr);
   if (!pass.nameVisits(string.codes(), string.parameters())) return pass.failure();
@@ -582,14 +654,14 @@ Result<void> Engine::State::findVisits() {
 }
 
 Result<Image> Engine::State::makeImage(const ModuleString& of) {
-  Image image{ModuleString(program->symbols), {}};
+  Image image{ModuleString(program->symbols), {}, {}};
   Arrays out;
   std::fill(made.begin(), made.end(), 0);
   around.read(*program, program->main().ignored, needs, of.codes());
   const Instance mainBefore = main;
   const std::vector<Instance> visitsBefore = visits;
   Pass pass(*this, of, nullptr);
-  const bool drawn = pass.draw(out, image.source);
+  const bool drawn = pass.draw(out, image);
   // An image is a view: what its statements do to variables is forgotten.
   main = mainBefore;
   visits = visitsBefore;

@@ -197,7 +197,9 @@ class PartPass {
   template <class Rewrite>
   void eachBlock(std::size_t begin, std::size_t end, Rewrite rewriteBlock) {
     constexpr std::size_t blockModules = 1 << 14;
-    const std::size_t block = std::clamp<std::size_t>(blockModules / std::max(plans_.longest, plans_.most), 1, std::clamp<std::size_t>(end - begin, 1, 2048));
+    // Short strings in short blocks: the room for the longest a block can become shall stay small beside the string.
+    const std::size_t most = std::clamp<std::size_t>((end - begin) / 16, 16, 2048);
+    const std::size_t block = std::clamp<std::size_t>(blockModules / std::max(plans_.longest, plans_.most), 1, most);
     room_ = block;
     const std::size_t bytesLeft = s_.bytesLeft();
     LeftFringe fringe(plans_, old_.codes, begin);
@@ -208,9 +210,10 @@ class PartPass {
     for (std::size_t at = begin; at < end && !lane_.ended(); at += block) {
       const std::size_t to = std::min(end, at + block);
       Arrays& out = *lane_.out;
-      out.codes.reserveMore(out.codes.size() + block * plans_.longest);
-      out.parameters.reserveMore(out.parameters.size() + block * plans_.most);
-      if (identified_) out.identities.reserveMore(out.codes.capacity());
+      const std::size_t modules = to - at;
+      out.codes.reserveMore(out.codes.size() + modules * plans_.longest);
+      out.parameters.reserveMore(out.parameters.size() + (plans_.parameters ? modules * plans_.most : 0));
+      if (identified_) out.identities.reserve(out.codes.capacity());
       last = rewriteBlock(at, to, last, fringe);
       if (lane_.ended()) return;
       if (out.codes.size() > s_.options.limits.modules) lane_.limit = Lane::Limit::Modules;
@@ -807,6 +810,20 @@ void readSurroundings(Engine::State& s, int threads) {
   threads == 1 ? read(0) : s.workers->each(read);
 }
 
+/// So many that the lanes, before they are put together, stay within twice 8 bytes a module and 8 a parameter.
+int threadsFor(const Engine::State& s) {
+  const std::size_t size = s.string.size();
+  const auto most = static_cast<int>(std::clamp<std::size_t>(size / s.options.modulesPerThread, 1, static_cast<std::size_t>(s.workers->count())));
+  const double who = s.identified ? sizeof(Identity) : 0, codes = static_cast<double>(size), numbers = static_cast<double>(s.string.parameters().size());
+  const double newCodes = s.grownCodes * codes, newNumbers = s.grownNumbers * codes;
+  const double before = codes * (1 + who) + 8 * numbers, after = newCodes * (1 + who) + 8 * newNumbers;
+  const double allowed = 16 * (std::max(codes, newCodes) + std::max(numbers, newNumbers));
+  const auto fits = [&](int threads) { return before + after * (2 - 1.0 / threads) <= allowed; };
+  int threads = most;
+  while (threads > 1 && !fits(threads)) --threads;
+  return threads;
+}
+
 /// Puts the lanes behind each other; the first is in its place already.
 void joinLanes(Engine::State& s, int threads) {
   std::vector<std::size_t> codes{s.spare.codes.size()}, parameters{s.spare.parameters.size()};
@@ -841,7 +858,7 @@ Result<std::size_t> Engine::State::plainStep() {
       return *changed;
     }
   }
-  const int threads = static_cast<int>(std::clamp<std::size_t>(size / options.modulesPerThread, 1, static_cast<std::size_t>(workers->count())));
+  const int threads = threadsFor(*this);
   readSurroundings(*this, threads == 1 ? 1 : workers->count());
   if (plans->rightCodes) rightCodes.setSize(size);
   const auto part = [&](int thread) {
@@ -854,9 +871,9 @@ Result<std::size_t> Engine::State::plainStep() {
     lane.out->clear();
     // Room for as much as the last step's growth promises: the first lane writes where all lanes are put together.
     const std::size_t share = thread == 0 ? 1 : n;
-    lane.out->codes.reserve(static_cast<std::size_t>(grownCodes * static_cast<double>(size)) / share);
+    lane.out->codes.reserve(expectedModules() / share);
     if (identified) lane.out->identities.reserve(lane.out->codes.capacity());
-    lane.out->parameters.reserve(static_cast<std::size_t>(grownNumbers * static_cast<double>(size)) / share);
+    lane.out->parameters.reserve(expectedNumbers() / share);
     const std::size_t begin = size * t / n, end = size * (t + 1) / n;
     PartPass(*this, machines[t], lane).run(begin, end, parametersBefore(*this, begin));
   };
@@ -879,9 +896,7 @@ Result<std::size_t> Engine::State::plainStep() {
   calm->disturbed(fired_);
   joinLanes(*this, threads);
   if (spare.codes.size() > options.limits.modules) return tooMany("modules", options.limits.modules, nullptr);
-  constexpr double spareRoom = 1.06;
-  grownCodes = spareRoom * static_cast<double>(spare.codes.size()) / static_cast<double>(std::max<std::size_t>(size, 1));
-  grownNumbers = spareRoom * static_cast<double>(spare.parameters.size()) / static_cast<double>(std::max<std::size_t>(size, 1));
+  noteGrowth();
   return fired_;
 }
 

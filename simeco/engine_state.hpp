@@ -43,6 +43,7 @@ struct Cursor {
   std::size_t listBegin = 0;        ///< where the list starts, to give its room back
   std::size_t parameterBegin = 0;
   int depth = 0;
+  std::int32_t rule = -1;           ///< id of the rule that made the list; -1: a module of the old string
 };
 
 /// What one thread makes in a step of the plain way.
@@ -64,7 +65,7 @@ struct Lane {
 };
 
 /// Which draws belong to what: each has its own streams, so none shifts another.
-enum class Stream : std::uint64_t { Axiom, Header, Choice, Successor, Homomorphism, Decomposition };
+enum class Stream : std::uint64_t { Axiom, Header, Choice, Successor, Homomorphism, Decomposition, Interaction };
 
 struct Engine::State {
   std::shared_ptr<const Program> program;
@@ -99,6 +100,7 @@ struct Engine::State {
   bool drawsConditions = false;    ///< rules that did not fire may fire at the next step by chance
   bool drawsResults = false;
   bool stopped = false;
+  bool finished = false;           ///< the last step is done
   std::optional<std::int64_t> wantedLength;
 
   [[nodiscard]] Machine& machine() { return machines.front(); }
@@ -123,6 +125,10 @@ struct Engine::State {
   [[nodiscard]] Result<void> runHeader(const Code& code, Instance& instance, std::uint64_t which);
   [[nodiscard]] Result<void> startInstance(Instance& instance);
   void notePeak(std::size_t more);
+  /// How much a module became in this step, `spare` against `string`; the next step makes room by it.
+  void noteGrowth();
+  [[nodiscard]] std::size_t expectedModules() const;
+  [[nodiscard]] std::size_t expectedNumbers() const;
   void note(const std::string& text);
 
   /// Rewrites the whole string into `spare`; returns how many rules fired.
@@ -131,6 +137,9 @@ struct Engine::State {
   /// Many steps at once, where rules are so simple that they can be multiplied.
   [[nodiscard]] bool canLeap() const;
   [[nodiscard]] Result<Outcome> leap(std::int64_t count, std::vector<std::size_t>& modulesPerStep);
+  /// Rewrites the selected modules by interaction rules; how many fired.
+  [[nodiscard]] Result<std::size_t> interactWith(const std::vector<bool>& selected, std::optional<std::size_t> rule);
+  [[nodiscard]] Result<void> pruneAt(const std::vector<bool>& selected);
   [[nodiscard]] Result<Image> makeImage(const ModuleString& of);
   /// Instances for the `?` modules of the axiom.
   [[nodiscard]] Result<void> findVisits();

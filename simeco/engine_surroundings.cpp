@@ -98,12 +98,7 @@ void Surroundings::readBrackets(const Program& program, std::span<const SymbolCo
 }
 
 void Surroundings::readOffsets(const Program& program, std::span<const SymbolCode> codes) {
-  offset_.setSize(codes.size());
-  std::uint32_t offset = 0;
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    offset_[i] = offset;
-    offset += program.parameterCount[codes[i]];
-  }
+  offsets_.read(program, codes);
 }
 
 void Surroundings::read(const Program& program, const std::array<bool, 256>& ignored, const SurroundingNeeds& needs, std::span<const SymbolCode> codes) {

@@ -6,7 +6,7 @@
 /// Brackets are always considered; ignored letters are passed over. The left neighbour of a module is the last considered
 /// module before it on its axis or on the axes that carry it; the right neighbour the next one on its own axis.
 
-#include "simeco/program.hpp"
+#include "simeco/engine_offsets.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -38,11 +38,14 @@ class Surroundings {
   /// The bracket that belongs to this one, or `nowhere`.
   [[nodiscard]] std::uint32_t partner(std::size_t module) const { return partner_[module]; }
   /// Where the module's parameters start.
-  [[nodiscard]] std::uint32_t offset(std::size_t module) const { return offset_[module]; }
-  [[nodiscard]] std::size_t bytes() const { return left_.bytes() + right_.bytes() + partner_.bytes() + offset_.bytes(); }
+  [[nodiscard]] std::uint32_t offset(std::size_t module) const { return offsets_.of(module); }
+  [[nodiscard]] std::size_t bytes() const {
+    return left_.bytes() + right_.bytes() + partner_.bytes() + offsets_.bytes() + leftStack_.bytes() + rightStack_.bytes() + bracketStack_.bytes();
+  }
 
  private:
-  Buffer<std::uint32_t> left_, right_, partner_, offset_;
+  Buffer<std::uint32_t> left_, right_, partner_;
+  Offsets offsets_;
   Buffer<std::uint32_t> leftStack_, rightStack_, bracketStack_;  // one each, so that the tables can be read at the same time
 };
 

@@ -72,7 +72,7 @@ class Recorder {
         pieces_.push_back({piece.body, false});
       }
       for (; made < end; ++made, ++view)
-        if (auto done = addModule(*view, made, rule); !done) return done;
+        if (auto done = addModule(*view, made, trace.maker[made]); !done) return done;
     }
     place();
     return {};
@@ -290,7 +290,8 @@ std::optional<std::int64_t> stepsFor(const GrowOptions& options, const Engine& e
   return std::min(static_cast<std::int64_t>(std::fmin(steps, 1e15)), engine.ownLength().value_or(never));
 }
 
-Result<PlantHistory> recordPlant(const Grammar& grammar, std::size_t index, std::int32_t firstProduction, const GrowOptions& options,
+/// `rules` are those of the plants before; this plant's are added.
+Result<PlantHistory> recordPlant(const Grammar& grammar, std::size_t index, std::vector<RuleInfo>& rules, const GrowOptions& options,
                                  std::span<const Scene> scenes, std::vector<OrganStyle>& styles) {
   const PlantGrammar& plant = grammar.plants[index];
   auto history = standingPlace(grammar, plant);
@@ -303,12 +304,14 @@ Result<PlantHistory> recordPlant(const Grammar& grammar, std::size_t index, std:
   if (auto clear = checkStandsClear(*history, plant.name); !clear) return clear.failure();
   auto program = compile(grammar, index, {options.limits.expressionDepth});
   if (!program) return program.failure();
+  const auto firstRule = static_cast<std::int32_t>(rules.size());
+  rules.insert(rules.end(), (*program)->rules.begin(), (*program)->rules.end());
   const std::uint64_t seed = Rng(options.seed).split(index).bits();
   auto engine = Engine::create(*std::move(program), {.seed = index == 0 ? options.seed : seed, .limits = options.limits, .watch = options.watch, .identified = true});
   if (!engine) return engine.failure();
   if (auto started = (*engine)->start(); !started) return started.failure();
   const Draws draws(index == 0 ? options.seed : seed, options.limits, options.watch);
-  Recorder recorder(**engine, *stages, firstProduction, draws);
+  Recorder recorder(**engine, *stages, firstRule, draws);
   if (auto done = recorder.axiom(); !done) return done.failure();
   const auto count = stepsFor(options, **engine, history->deriveTime);
   StepTrace trace;
@@ -342,17 +345,17 @@ Result<Growth> prepareGrowth(const Grammar& grammar, const GrowOptions& options)
   const auto scenes = scenesOf(grammar, options);
   if (!scenes) return scenes.failure();
   auto data = std::make_shared<GrowthData>();
+  std::vector<RuleInfo> rules;
   data->name = grammar.name;
   data->turning = options.turning;
-  std::int32_t production = 0;
   for (std::size_t i = 0; i < grammar.plants.size(); ++i) {
-    auto plant = recordPlant(grammar, i, production, options, *scenes, data->styles);
+    auto plant = recordPlant(grammar, i, rules, options, *scenes, data->styles);
     if (!plant) return plant.failure();
     const bool complete = plant->settled || options.steps;
     if (options.upToTime && !complete) data->upToTime = options.upToTime;
     data->plants.push_back(*std::move(plant));
-    production += static_cast<std::int32_t>(grammar.plants[i].rules.productions.size());
   }
+  data->rules = RuleList(std::move(rules));
   if (auto lit = addLight(*data, data->upToTime.value_or(fullSizeTime(*data)), options.watch); !lit) return lit.failure();
   return Growth(std::move(data));
 }
@@ -363,6 +366,7 @@ Result<Plant> plantAt(const Growth& growth, double time) {
   if (data.upToTime && time > *data.upToTime)
     return fail(ErrorCode::BadInput, "growth was prepared up to time " + shortest(*data.upToTime) + "; time " + shortest(time) + " is later");
   Plant plant{data.name, time, data.styles, {}};
+  plant.rules = data.rules;
   for (const PlantHistory& history : data.plants) addOrgans(data, history, time, plant.organs);
   return plant;
 }

@@ -85,6 +85,7 @@ struct GrowthData {
   std::optional<double> upToTime;
   std::vector<OrganStyle> styles;
   std::vector<PlantHistory> plants;
+  RuleList rules;                          ///< of all plants, by an organ's production
   std::vector<double> lightSteps;          ///< times at which light was computed; empty where no organ asks for it
 };
 

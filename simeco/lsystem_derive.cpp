@@ -2,7 +2,11 @@
 
 #include "simeco/lsystem_turtle.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace axil::simeco {
 
@@ -63,11 +67,75 @@ class Answers : public TurtleSink {
   std::vector<std::size_t> places_;
 };
 
-Result<void> answerQueries(HostStep& step, const LSystemView& view) {
-  const auto image = step.image();
+/// What is drawn as patches, and where the turtle is at every `?E`.
+class Surveyor : public TurtleSink {
+ public:
+  explicit Surveyor(const LSystemView& view) : stemsShade_(view.lineStyle != LineStyle::Pixel) {}
+
+  void segment(const TurtleSegment& s) override {
+    if (stemsShade_) add((s.start + s.end) / 2.0, glm::length(s.end - s.start) * (s.startWidth + s.endWidth) / 2);
+  }
+  void surface(const TurtleSurface& s) override { add(s.frame.position + s.frame.heading * (s.size.y / 2), std::fabs(s.size.x * s.size.y)); }
+  void sphere(const TurtleSphere& s) override { add(s.centre, std::numbers::pi / 4 * s.diameter * s.diameter); }
+  void disc(const TurtleDisc& d) override {
+    if (!d.outline) add(d.centre, std::numbers::pi / 4 * d.diameter * d.diameter);
+  }
+  void polygon(const TurtlePolygon& p) override {
+    if (p.vertices.empty()) return;
+    glm::dvec3 middle{0}, twice{0};
+    for (std::size_t i = 0; i < p.vertices.size(); ++i) {
+      middle += p.vertices[i];
+      twice += glm::cross(p.vertices[i] - p.vertices[0], p.vertices[(i + 1) % p.vertices.size()] - p.vertices[0]);
+    }
+    add(middle / static_cast<double>(p.vertices.size()), glm::length(twice) / 2);
+  }
+  void query(const TurtleQuery& q) override {
+    if (q.asked == 'E') asked.push_back(q);
+  }
+
+  std::vector<TurtleQuery> asked;
+  std::vector<DrawnPatch> patches;
+
+ private:
+  void add(const glm::dvec3& at, double area) { patches.push_back({at, area}); }
+  bool stemsShade_;
+};
+
+bool isCommunication(const Symbol& symbol) { return symbol.letter == "E"; }
+
+/// One exchange with the environment program.
+Result<void> communicate(HostStep& step, const Image& image, const LSystemView& view, const EnvironmentProgram& program, const Watch& watch) {
+  Surveyor surveyor(view);
+  if (const auto report = interpret(image.string, view, surveyor, watch); !report) return report.failure();
+  const ModuleString& string = step.string();
+  const std::vector<std::size_t> places = parameterPlaces(string), drawnPlaces = parameterPlaces(image.string);
+  std::vector<double> lost(image.string.parameters().begin(), image.string.parameters().end());  // parameters of what only the homomorphism makes
+  const auto drawnSymbol = [&](std::size_t module) -> const Symbol& { return image.string.symbols()[image.string.codes()[module]]; };
+  std::vector<Message> messages;
+  for (const TurtleQuery& q : surveyor.asked) {
+    const std::size_t module = image.source[q.module];
+    const Symbol& own = string.symbols()[string.codes()[module]];
+    const Symbol& drawn = drawnSymbol(q.module);
+    Message message{module, {}, q.frame, q.width, q.scale, {}};
+    message.parameters = isCommunication(own) ? step.parameters().subspan(places[module], static_cast<std::size_t>(own.parameters))
+                                              : std::span(lost).subspan(drawnPlaces[q.module], static_cast<std::size_t>(drawn.parameters));
+    if (const std::size_t next = q.module + 1; next < image.string.size())
+      message.following = ModuleView{drawnSymbol(next).letter, image.string.parameters().subspan(drawnPlaces[next], static_cast<std::size_t>(drawnSymbol(next).parameters))};
+    messages.push_back(message);
+  }
+  return program({step.step(), messages, surveyor.patches});
+}
+
+Result<void> answerQueries(HostStep& step, const DeriveLSystemOptions& options) {
+  auto image = step.image();
   if (!image) return image.failure();
+  if (options.environment && !step.finished()) {
+    if (auto done = communicate(step, *image, options.view, options.environment, options.derive.watch); !done) return done;
+    image = step.image();  // the answers may be drawn
+    if (!image) return image.failure();
+  }
   Answers answers(step, *image);
-  const auto report = interpret(image->string, view, answers);
+  const auto report = interpret(image->string, options.view, answers, options.derive.watch);
   if (!report) return report.failure();
   return {};
 }
@@ -78,9 +146,9 @@ Result<Derivation> deriveLSystem(const Grammar& grammar, const DeriveLSystemOpti
   DeriveOptions derivation = options.derive;
   if (derivation.plant >= grammar.plants.size()) return fail(ErrorCode::BadInput, "the grammar has no plant number " + std::to_string(derivation.plant + 1));
   if (asks(grammar.plants[derivation.plant])) {
-    derivation.host.betweenSteps = [view = options.view, next = options.derive.host.betweenSteps](HostStep& step) -> Result<void> {
-      if (auto answered = answerQueries(step, view); !answered) return answered;
-      return next ? next(step) : Result<void>{};
+    derivation.host.betweenSteps = [&options](HostStep& step) -> Result<void> {
+      if (auto answered = answerQueries(step, options); !answered) return answered;
+      return options.derive.host.betweenSteps ? options.derive.host.betweenSteps(step) : Result<void>{};
     };
   }
   return derive(grammar, derivation);

@@ -2,7 +2,7 @@
 /// \file
 /// An L-system as a Plant: derived, drawn by the turtle, and what is drawn turned into organs. Segments are stems (radius = half
 /// the width), `~s` are leaves of model "s", polygons are faces, spheres balls, circles discs. Every one knows the module it
-/// comes from, and its rule when the derivation is traced.
+/// comes from, and its rule: `plantOfLSystem` traces the derivation; of a string derived elsewhere only when that was traced.
 ///
 /// With the line style `pixel` (the default) a width is so many pixels of a picture `pixelsAcross` wide; with `polygon` and
 /// `cylinder` it is a length of the plant.

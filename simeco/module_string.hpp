@@ -63,9 +63,10 @@ class Buffer {
     data_ = static_cast<T*>(grownBlock(data_, data_ == nullptr ? 0 : size_ * sizeof(T), (count + slack) * sizeof(T)));
     capacity_ = count;
   }
-  /// At least double, so that appending one by one costs the same for each.
+  /// A quarter more at least, so that appending one by one costs the same for each.
   void reserveMore(std::size_t count) {
-    if (count > capacity_ || data_ == nullptr) reserve(count > 2 * capacity_ ? count : 2 * capacity_);
+    const std::size_t more = capacity_ + capacity_ / 4;
+    if (count > capacity_ || data_ == nullptr) reserve(count > more ? count : more);
   }
   /// Says how many elements are filled; their values are whatever was written there.
   void setSize(std::size_t size) {

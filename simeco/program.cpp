@@ -72,6 +72,7 @@ class Compiler {
 
   void plant(std::size_t index) {
     const PlantGrammar& plant = grammar_.plants[index];
+    plant_ = index;
     readEnvironment(grammar_.attributes);
     readEnvironment(plant.attributes);
     internAll(plant.rules);
@@ -103,7 +104,7 @@ class Compiler {
                                   {RuleKind::Homomorphism, &s.homomorphism}, {RuleKind::Interaction, &s.interaction}})
         for (CompiledRule& rule : table->rules) {
           rule.id = static_cast<std::uint32_t>(program_.rules.size());
-          program_.rules.push_back({kind, system, rule.number, rule.where, rule.name});
+          program_.rules.push_back({kind, plant_, system, rule.number, rule.where, rule.name});
         }
     }
     program_.draws = program_.draws || program_.imageDraws || program_.systems[0].interaction.draws;
@@ -856,6 +857,7 @@ class Compiler {
   const Grammar& grammar_;
   CompileOptions options_;
   Program program_;
+  std::size_t plant_ = 0;
   std::vector<Symbol> symbols_;
   std::map<std::pair<std::string, std::size_t>, SymbolCode> codes_;
   std::map<std::string, double> environment_;

@@ -10,6 +10,7 @@
 #include "base/result.hpp"
 #include "simeco/grammar.hpp"
 #include "simeco/module_string.hpp"
+#include "simeco/rule_info.hpp"
 
 #include <array>
 #include <cstdint>
@@ -160,18 +161,6 @@ struct System {
   std::vector<std::string> externals;
   std::vector<ArrayLayout> arrays;
   std::size_t arrayElements = 0;
-};
-
-/// Which of an L-system's rules a rule is.
-enum class RuleKind : std::uint8_t { Production, Decomposition, Homomorphism, Interaction };
-
-/// A rule of the text: where it stands in the grammar and in its text.
-struct RuleInfo {
-  RuleKind kind = RuleKind::Production;
-  std::size_t system = 0;        ///< 0: the plant's own L-system, else the sub-L-system of that number, counted from 1
-  std::size_t number = 0;        ///< in text order among the rules of its kind
-  SourceSpan where;
-  std::string name;              ///< "S(4) -> ... (plant.simeco:12)"
 };
 
 struct Program {
