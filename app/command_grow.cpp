@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/described_grammar.hpp"
 #include "app/environment_options.hpp"
 #include "app/grammar_options.hpp"
 #include "app/project_options.hpp"
@@ -131,7 +132,7 @@ Result<void> grow(const simeco::Grammar& grammar, std::uint64_t seed, const Grow
   const std::string ending = fs::path(command.out).extension().string();
   const auto growing = growingOf(grammar, seed, command);
   if (!growing) return growing.failure();
-  const render::PictureOptions picture{.width_px = command.width, .height_px = command.height, .view = kViews.at(command.view)};
+  const render::PictureOptions picture{.width_px = command.width, .height_px = command.height, .view = kViews.at(command.view), .obstacles = command.environment.obstacles};
   if (isAnimation(command, ending)) return writeAnimation(*growing, command, picture);
   const auto plant = growing->at(growing->endTime);
   if (!plant) return plant.failure();
@@ -158,7 +159,7 @@ Result<void> checkOut(const GrowCommand& command) {
 
 int run(const GrowCommand& command) {
   if (const auto out = checkOut(command); !out) return report(out.error());
-  auto grammar = grammarIn(command.grammar);
+  auto grammar = isDescription(command.grammar) ? describedGrammarIn(command.grammar) : grammarIn(command.grammar);
   if (!grammar) return report(grammar.error());
   const auto plant = plantNamed(*grammar, command.plant);
   if (!plant) return report(plant.error());

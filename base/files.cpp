@@ -85,7 +85,8 @@ Result<StagingFolder> StagingFolder::beside(const fs::path& target) {
   // A target that exists must itself be writable, though the staging folder stands beside it.
   if (fs::exists(plain, code) && ::access(plain.c_str(), W_OK) != 0) return unwritable(target, std::strerror(errno));
   const fs::path staging = asideOf(plain);
-  if (auto made = makeFolder(staging); !made) return made.failure();
+  fs::create_directories(staging, code);
+  if (code) return unwritable(target, code.message());  // who asked knows nothing of the folder beside it
   return StagingFolder(plain, staging);
 }
 

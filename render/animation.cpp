@@ -2,11 +2,15 @@
 
 #include "base/files.hpp"
 #include "base/text.hpp"
+#include "render/obstacles.hpp"
 #include "render/webm.hpp"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <optional>
@@ -49,7 +53,7 @@ Result<PictureOptions> steadyPicture(const GrowthAt& growthAt, const AnimationOp
   const auto mesh = meshOf(*plant);
   if (!mesh) return mesh.failure();
   if (!picture.floorHeight) picture.floorHeight = floorUnder(*mesh);
-  if (preset != nullptr) picture.view = cameraFitting(*mesh, *preset, picture.width_px, picture.height_px);
+  if (preset != nullptr) picture.view = cameraFitting(withObstacles(*mesh, obstaclesToFrame(*mesh, picture.obstacles)), *preset, picture.width_px, picture.height_px);
   return picture;
 }
 
@@ -81,12 +85,34 @@ std::string frameName(int frame) {
   return "frame_" + number + ".png";
 }
 
+/// OpenCV writes past every setting of its log to the terminal that it looks for a tag of VP8 which WebM does not have. While
+/// this lives, nothing reaches the terminal's error stream.
+class Hush {
+ public:
+  Hush() : kept_(::dup(STDERR_FILENO)) {
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (kept_ >= 0 && nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+    if (nowhere >= 0) ::close(nowhere);
+  }
+  Hush(const Hush&) = delete;
+  Hush& operator=(const Hush&) = delete;
+  ~Hush() {
+    if (kept_ < 0) return;
+    ::dup2(kept_, STDERR_FILENO);
+    ::close(kept_);
+  }
+
+ private:
+  int kept_;
+};
+
 /// A video that OpenCV writes; it throws or says nothing when it cannot.
 class Video {
  public:
   [[nodiscard]] static Result<Video> open(const std::filesystem::path& path, Form form, const AnimationOptions& options) {
     const int code = form == Form::Mp4 ? cv::VideoWriter::fourcc('a', 'v', 'c', '1') : cv::VideoWriter::fourcc('V', 'P', '8', '0');
     Video video;
+    const Hush hush;
     try {
       video.writer_.open(path.string(), cv::CAP_FFMPEG, code, options.framesPerSecond, {options.picture.width_px, options.picture.height_px});
     } catch (const cv::Exception&) {

@@ -1,10 +1,10 @@
 #include "render/organ_models.hpp"
 
-#include "organs/flower.hpp"
-#include "organs/fruit.hpp"
-#include "organs/leaf.hpp"
+#include "organs/model.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace axil::render {
 namespace {
@@ -12,21 +12,20 @@ namespace {
 using organs::Detail;
 using simeco::OrganKind;
 
-constexpr const char* defaultLeaf = "ovate";
-constexpr const char* defaultFlower = "five-petalled";
-constexpr const char* defaultFruit = "berry";
-
 /// Old grammars call a model "DefaultLeaf.i" when they mean none in particular.
 bool namesNone(const std::string& stem) { return stem.empty() || stem.starts_with("default"); }
 
-/// A kind's mesh by its name: `named` gives a shape or nothing, `make` its parts.
-template <class Named, class Make>
-ModelMesh modelNamed(const char* kind, const std::string& stem, const char* usual, const Named& named, const Make& make) {
-  const auto shape = named(stem);
-  const std::string name = shape ? stem : usual;
-  ModelMesh model{.parts = make(shape ? *shape : *named(usual)), .name = std::string(kind) + " " + name, .note = {}};
-  if (!shape && !namesNone(stem)) model.note = std::string("the ") + kind + " model \"" + stem + "\" is not a known shape; drawn as " + usual;
-  return model;
+/// What a name was read as, and a sentence for what of it was not understood.
+template <class Model>
+ModelMesh read(const char* kind, const std::string& stem, const Model& model, std::vector<organs::Part> parts) {
+  ModelMesh mesh{.parts = std::move(parts), .name = std::string(kind) + " " + (namesNone(stem) ? model.shape.name : stem), .note = {}};
+  if (model.unknown.empty()) return mesh;
+  mesh.name = std::string(kind) + " " + model.shape.name;
+  std::string words;
+  for (const std::string& word : model.unknown) words += (words.empty() ? "\"" : "\", \"") + word;
+  mesh.note = std::string("the ") + kind + " model \"" + stem + "\" is not a known shape; drawn as " + model.shape.name;
+  if (model.unknown.front() != stem) mesh.note = std::string("the ") + kind + " model \"" + stem + "\" has words that are not known: " + words + "\"; drawn as " + model.shape.name + " without them";
+  return mesh;
 }
 
 }  // namespace
@@ -43,23 +42,22 @@ bool isModelled(OrganKind kind) { return kind == OrganKind::Leaf || kind == Orga
 
 ModelMesh modelFor(OrganKind kind, const std::string& model, Detail detail) {
   const std::string stem = modelStem(model);
-  switch (kind) {
-    case OrganKind::Flower:
-      return modelNamed("flower", stem, defaultFlower, organs::flowerShapeNamed, [&](const auto& shape) { return organs::flowerParts(shape, detail); });
-    case OrganKind::Fruit:
-      return modelNamed("fruit", stem, defaultFruit, organs::fruitShapeNamed, [&](const auto& shape) { return organs::fruitParts(shape, detail); });
-    case OrganKind::Leaf:
-    case OrganKind::Apex:
-    case OrganKind::Stem:
-    case OrganKind::Root: break;
+  if (kind == OrganKind::Flower) {
+    const organs::FlowerModel flower = organs::flowerModelNamed(stem);
+    return read("flower", stem, flower, organs::flowerParts(flower.shape, detail));
   }
-  return modelNamed("leaf", stem, defaultLeaf, organs::leafShapeNamed, [&](const auto& shape) { return organs::leafParts(shape, std::nullopt, detail); });
+  if (kind == OrganKind::Fruit) {
+    const organs::FruitModel fruit = organs::fruitModelNamed(stem);
+    return read("fruit", stem, fruit, organs::fruitParts(fruit.shape, detail));
+  }
+  const organs::LeafModel leaf = organs::leafModelNamed(stem);
+  return read("leaf", stem, leaf, organs::leafModelParts(leaf, detail));
 }
 
 ShapeSize leafShapeSize(const std::string& model) {
-  const std::string stem = modelStem(model);
-  const auto shape = organs::leafShapeNamed(stem);
-  return {shape.value_or(*organs::leafShapeNamed(defaultLeaf)).widthToLength, shape ? stem : std::string()};
+  const organs::LeafModel leaf = organs::leafModelNamed(modelStem(model));
+  const bool known = leaf.unknown.empty() && !namesNone(modelStem(model));
+  return {leaf.shape.widthToLength, known ? modelStem(model) : std::string()};
 }
 
 }  // namespace axil::render

@@ -23,4 +23,7 @@ void inParallel(std::size_t count, const Work& work) {
   share(0);
 }
 
+/// Things are made in pieces of so many, each piece by itself; what comes out is the same for any number of threads.
+inline std::size_t piecesFor(std::size_t count, std::size_t atOnce) { return (count + atOnce - 1) / atOnce; }
+
 }  // namespace axil::render

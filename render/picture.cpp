@@ -5,6 +5,7 @@
 #include "render/colour.hpp"
 #include "render/flat_mesh.hpp"
 #include "render/headless_window.hpp"
+#include "render/obstacles.hpp"
 #include "render/parallel.hpp"
 #include "render/plant_layer.hpp"
 #include "skeleton3d/camera.hpp"
@@ -167,7 +168,8 @@ Image composed(const Layer& plant, const Floor& floor, const Background& backgro
 }
 
 Result<Camera> cameraOf(const PlantMesh& mesh, const PictureOptions& options) {
-  if (const auto* preset = std::get_if<ViewPreset>(&options.view)) return cameraFitting(mesh, *preset, options.width_px, options.height_px);
+  if (const auto* preset = std::get_if<ViewPreset>(&options.view))
+    return cameraFitting(withObstacles(mesh, obstaclesToFrame(mesh, options.obstacles)), *preset, options.width_px, options.height_px);
   const Camera& camera = std::get<Camera>(options.view);
   if (camera.model == CameraModel::Unknown)
     return fail(ErrorCode::BadInput, "a picture cannot be drawn with an unknown camera; give its focal length or scale, or choose a view by name");
@@ -234,13 +236,15 @@ double floorUnder(const PlantMesh& mesh) {
   return collar - bounds.low.y > kStands * std::max({size.x, size.y, size.z}) ? bounds.low.y : collar;
 }
 
-Result<Image> Painter::draw(const PlantMesh& mesh, const PictureOptions& options) {
+Result<Image> Painter::draw(const PlantMesh& plant, const PictureOptions& options) {
   if (const auto checked = checkSize(options); !checked) return checked.failure();
-  const auto camera = cameraOf(mesh, options);
+  const auto camera = cameraOf(plant, options);
   if (!camera) return camera.failure();
 
   const bool onGround = options.ground == Ground::Shadow;
-  const double floorHeight = options.floorHeight.value_or(floorUnder(mesh));
+  const double floorHeight = options.floorHeight.value_or(floorUnder(plant));
+  const std::optional<PlantMesh> around = options.obstacles.empty() ? std::nullopt : std::optional(withObstacles(plant, options.obstacles));
+  const PlantMesh& mesh = around ? *around : plant;
   const FlatMesh flat = flattened(mesh, Tint::Natural);
   const Daylight daylight = daylightOn(flat, {.groundHeight = floorHeight, .ground = onGround ? GroundLight::Shaded : GroundLight::None});
   const bool looksDown = skeleton3d::rayThrough(*camera, {camera->centre_px}).origin.at.y > floorHeight;

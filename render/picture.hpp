@@ -9,12 +9,14 @@
 #include "base/result.hpp"
 #include "render/daylight.hpp"
 #include "render/plant_mesh.hpp"
+#include "simeco/environment.hpp"
 #include "skeleton3d/types.hpp"
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <variant>
+#include <vector>
 
 namespace axil::render {
 
@@ -41,6 +43,7 @@ struct PictureOptions {
   Ground ground = Ground::Shadow;
   std::optional<double> floorHeight = std::nullopt;  ///< none: floorUnder(mesh)
   Smoothing smoothing = Smoothing::Quick;
+  std::vector<simeco::Obstacle> obstacles = {};  ///< drawn beside the plant, and shading it
 };
 
 /// Where the floor is: at the collar's height of a plant that stands on it; at the lowest point of one that hangs, creeps down or

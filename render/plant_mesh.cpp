@@ -4,6 +4,7 @@
 #include "render/colour.hpp"
 #include "render/organ_models.hpp"
 #include "render/parallel.hpp"
+#include "render/stem_mesh.hpp"
 #include "render/tube.hpp"
 #include "render/turtle_shapes.hpp"
 
@@ -11,6 +12,7 @@
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <set>
@@ -52,7 +54,7 @@ TubeDetail tubeDetailFor(Detail detail, double relativeRadius) {
   switch (detail) {
     case Detail::Close: return {.sides = relativeRadius > 0.006 ? 16 : 10, .turnPerRing = 3_deg, .capRings = 3};
     case Detail::Medium: return {.sides = 8, .turnPerRing = 5_deg, .capRings = 2};
-    case Detail::Far: return {.sides = 5, .turnPerRing = 20_deg, .capRings = 1};
+    case Detail::Far: return {.sides = 8, .turnPerRing = 20_deg, .capRings = 1};
   }
   return {};
 }
@@ -217,17 +219,24 @@ StemScale stemScaleOf(const Plant& plant, const PlantAxes& axes) {
 Result<void> addStems(PlantMesh& mesh, const Plant& plant, Detail detail, std::size_t maximumTriangles) {
   const PlantAxes axes = axesOf(plant, Continuation::Straightest);
   const StemScale scale = stemScaleOf(plant, axes);
-  StemDrawer drawer(plant, axes, stemLooksOf(plant, mesh), scale);
-  TubeBuilder builder;
-  builder.expect(plant.organs.size(), axes.axes.size(), tubeDetailFor(detail, 0));
-  for (std::size_t i = 0; i < axes.axes.size(); ++i) {
-    const TubePath path = drawer.pathOf(i);
-    builder.add(path, tubeDetailFor(detail, path.nodes.front().radius / scale.extent));
-    if (builder.triangleCount() > maximumTriangles)
-      return fail(ErrorCode::LimitReached, "the stems alone have more than " + std::to_string(maximumTriangles) +
-                                               " triangles; grow fewer steps or ask for a lower level of detail");
-  }
-  mesh.stems = builder.take();
+  const StemDrawer drawer(plant, axes, stemLooksOf(plant, mesh), scale);
+  constexpr std::size_t axesAtOnce = 1024;
+  std::vector<StemMesh> pieces(piecesFor(axes.axes.size(), axesAtOnce));
+  std::atomic<std::size_t> triangles = 0;
+  inParallel(pieces.size(), [&](std::size_t piece) {
+    TubeBuilder builder;
+    for (std::size_t i = piece * axesAtOnce; i < std::min((piece + 1) * axesAtOnce, axes.axes.size()) && triangles <= maximumTriangles; ++i) {
+      const std::size_t before = builder.triangleCount();
+      const TubePath path = drawer.pathOf(i);
+      builder.add(path, tubeDetailFor(detail, path.nodes.front().radius / scale.extent));
+      triangles += builder.triangleCount() - before;
+    }
+    pieces[piece] = builder.take();
+  });
+  if (triangles > maximumTriangles)
+    return fail(ErrorCode::LimitReached, "the stems alone have more than " + std::to_string(maximumTriangles) +
+                                             " triangles; grow fewer steps or ask for a lower level of detail");
+  mesh.stems = joined(std::move(pieces));
   return {};
 }
 

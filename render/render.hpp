@@ -10,6 +10,7 @@
 /// Everything is deterministic: the same plant and options give the same bytes. VTK, OpenGL, OpenCV and tinygltf are used
 /// inside and appear in no header.
 
+#include "render/gallery.hpp"     // contact sheets of shapes
 #include "render/types.hpp"           // PlantMesh, Material, Image: the nouns
 #include "render/plant_mesh.hpp"      // simeco::Plant -> PlantMesh
 #include "render/picture.hpp"         // PlantMesh -> Image, PNG

@@ -230,17 +230,6 @@ void TubeBuilder::sweep(std::span<const TubeRing> rings, std::span<const Triangl
   for (std::uint32_t s = 0; s < sides; ++s) addTriangle(tipPole, lower + s, lower + next(s), sourceOf(tip));
 }
 
-void TubeBuilder::expect(std::size_t segments, std::size_t stems, const TubeDetail& detail) {
-  const std::size_t bandsOfSegment = detail.turnPerRing.degrees() < 10 ? 4 : 2;
-  const std::size_t rings = segments * bandsOfSegment + stems * (1 + 2 * static_cast<std::size_t>(detail.capRings));
-  const std::size_t sides = static_cast<std::size_t>(detail.sides);
-  mesh_.positions.reserve(rings * sides);
-  mesh_.normals.reserve(rings * sides);
-  mesh_.colours.reserve(rings * sides);
-  mesh_.triangles.reserve(rings * sides * 6);
-  mesh_.sources.reserve(rings * sides * 2);
-}
-
 void TubeBuilder::add(const TubePath& path, const TubeDetail& detail) {
   AXIL_ASSERT(path.nodes.size() >= 2 && path.segments.size() + 1 == path.nodes.size(), "a tube has two nodes, and a segment between each two");
   if (circle_.size() != static_cast<std::size_t>(detail.sides)) {

@@ -57,8 +57,6 @@ struct TubeRing {
 /// Collects tubes into one mesh.
 class TubeBuilder {
  public:
-  /// Makes room for about so many segments on so many stems; memory that grows by itself costs more than the tubes.
-  void expect(std::size_t segments, std::size_t stems, const TubeDetail& detail);
   void add(const TubePath& path, const TubeDetail& detail);
   [[nodiscard]] std::size_t triangleCount() const { return mesh_.triangles.size() / 3; }
   [[nodiscard]] StemMesh take() { return std::move(mesh_); }

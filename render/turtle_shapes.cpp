@@ -1,11 +1,14 @@
 #include "render/turtle_shapes.hpp"
 
 #include "render/colour.hpp"
+#include "render/parallel.hpp"
 #include "render/polygon.hpp"
+#include "render/stem_mesh.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -70,17 +73,15 @@ void addFace(StemMesh& faces, const simeco::PlantFace& face, const glm::vec3& co
 
 void addFaces(PlantMesh& mesh, const Plant& plant) {
   Materials materials(mesh, plant, "face", Surface::Blade);
-  std::size_t corners = 0;
-  for (const simeco::PlantFace& face : plant.faces) corners += face.vertices.size();
-  mesh.faces.positions.reserve(corners);
-  mesh.faces.normals.reserve(corners);
-  mesh.faces.colours.reserve(corners);
-  mesh.faces.triangles.reserve(3 * corners);
-  mesh.faces.sources.reserve(corners);
-  for (std::size_t i = 0; i < plant.faces.size(); ++i) {
-    const std::int32_t material = materials.of(plant.faces[i].style);
-    addFace(mesh.faces, plant.faces[i], mesh.materials[static_cast<std::size_t>(material)].colour, {.organ = faceId(plant, i), .material = material});
-  }
+  std::vector<std::int32_t> materialOf(plant.faces.size());
+  for (std::size_t i = 0; i < plant.faces.size(); ++i) materialOf[i] = materials.of(plant.faces[i].style);
+  constexpr std::size_t facesAtOnce = 2048;
+  std::vector<StemMesh> pieces(piecesFor(plant.faces.size(), facesAtOnce));
+  inParallel(pieces.size(), [&](std::size_t piece) {
+    for (std::size_t i = piece * facesAtOnce; i < std::min((piece + 1) * facesAtOnce, plant.faces.size()); ++i)
+      addFace(pieces[piece], plant.faces[i], mesh.materials[static_cast<std::size_t>(materialOf[i])].colour, {.organ = faceId(plant, i), .material = materialOf[i]});
+  });
+  mesh.faces = joined(std::move(pieces));
 }
 
 // ---- balls and discs -------------------------------------------------------------------------------------------------

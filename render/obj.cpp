@@ -3,17 +3,14 @@
 #include "base/text.hpp"
 #include "render/colour.hpp"
 #include "render/flat_mesh.hpp"
+#include "render/parallel.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <charconv>
-#include <cstring>
 
 namespace axil::render {
 namespace {
-
-// ---- text ------------------------------------------------------------------------------------------------------------
 
 template <class Number>
 void appendNumber(std::string& text, Number value) {
@@ -73,49 +70,49 @@ std::string mtlOf(const PlantMesh& mesh, const FlatMesh& flat) {
   return text;
 }
 
-/// Triangles in the order of the file: by organ, and within it by material.
+/// Triangles in the order of the file: by organ, each organ's as they are (which is by material).
 std::vector<std::uint32_t> byOrgan(const FlatMesh& flat) {
+  std::int32_t last = 0;
+  for (const TriangleSource& source : flat.sources) last = std::max(last, source.organ.value);
+  std::vector<std::uint32_t> next(static_cast<std::size_t>(last) + 2, 0);
+  for (const TriangleSource& source : flat.sources) ++next[static_cast<std::size_t>(source.organ.value) + 1];
+  for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
   std::vector<std::uint32_t> order(flat.sources.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(flat.sources[a].organ, flat.sources[a].material) < std::pair(flat.sources[b].organ, flat.sources[b].material);
-  });
+  for (std::size_t i = 0; i < order.size(); ++i) order[next[static_cast<std::size_t>(flat.sources[i].organ.value)]++] = static_cast<std::uint32_t>(i);
   return order;
+}
+
+/// Appends `write(i, text)` for every i below `count`, made piece by piece by as many threads as there are.
+template <class Write>
+void appendAll(std::string& text, std::size_t count, const Write& write) {
+  constexpr std::size_t atOnce = 8192, piecesAtOnce = 16;
+  std::array<std::string, piecesAtOnce> pieces;
+  for (std::size_t first = 0; first < count; first += atOnce * piecesAtOnce) {
+    inParallel(piecesAtOnce, [&](std::size_t piece) {
+      pieces[piece].clear();
+      const std::size_t from = first + piece * atOnce;
+      for (std::size_t i = from; i < std::min(from + atOnce, count); ++i) write(i, pieces[piece]);
+    });
+    for (const std::string& piece : pieces) text += piece;
+  }
 }
 
 std::string objOf(const PlantMesh& mesh, const FlatMesh& flat, const std::string& mtlName) {
   std::string text;
-  text.reserve(flat.positions.size() * 64 + flat.triangles.size() * 16 + 1024);
+  text.reserve(flat.positions.size() * 64 + flat.triangles.size() * 7 + 1024);
   text += "# " + (mesh.name.empty() ? std::string("plant") : asWord(mesh.name)) + ", Y up\nmtllib " + mtlName + "\n";
-  for (const glm::vec3& p : flat.positions) appendVector(text, "v", p);
-  for (const glm::vec3& n : flat.normals) appendVector(text, "vn", n);
-  TriangleSource current{.organ = {}, .material = -1};
-  for (const std::uint32_t triangle : byOrgan(flat)) {
-    const TriangleSource& source = flat.sources[triangle];
-    if (source.organ != current.organ) text += "g organ_" + std::to_string(source.organ.value) + "\n";
-    if (source.material != current.material) text += "usemtl " + asWord(mesh.materials[static_cast<std::size_t>(source.material)].name) + "\n";
-    current = source;
-    appendFace(text, flat.triangles.data() + 3 * static_cast<std::size_t>(triangle));
-  }
+  appendAll(text, flat.positions.size(), [&](std::size_t i, std::string& to) { appendVector(to, "v", flat.positions[i]); });
+  appendAll(text, flat.normals.size(), [&](std::size_t i, std::string& to) { appendVector(to, "vn", flat.normals[i]); });
+  const std::vector<std::uint32_t> order = byOrgan(flat);
+  appendAll(text, order.size(), [&](std::size_t i, std::string& to) {
+    const TriangleSource& source = flat.sources[order[i]];
+    const TriangleSource before = i == 0 ? TriangleSource{.organ = {}, .material = -1} : flat.sources[order[i - 1]];
+    if (source.organ != before.organ) to += "g organ_" + std::to_string(source.organ.value) + "\n";
+    if (source.material != before.material) to += "usemtl " + asWord(mesh.materials[static_cast<std::size_t>(source.material)].name) + "\n";
+    appendFace(to, flat.triangles.data() + 3 * static_cast<std::size_t>(order[i]));
+  });
   return text;
 }
-
-// ---- binary ----------------------------------------------------------------------------------------------------------
-
-/// Puts values one after the other into bytes that are already there.
-class ByteWriter {
- public:
-  explicit ByteWriter(char* to) : to_(to) {}
-  template <class T>
-  void put(const T& value) {
-    static_assert(std::endian::native == std::endian::little, "PLY and glTF are written little endian");
-    std::memcpy(to_, &value, sizeof(T));
-    to_ += sizeof(T);
-  }
-
- private:
-  char* to_;
-};
 
 }  // namespace
 
@@ -124,30 +121,6 @@ Result<ObjFiles> objAndMtl(const PlantMesh& mesh, const std::string& mtlName) {
     return fail(ErrorCode::BadInput, "an OBJ file cannot name its materials \"" + mtlName + "\"; choose a file name without blanks and #");
   const FlatMesh flat = flattened(mesh);
   return ObjFiles{.obj = objOf(mesh, flat, mtlName), .mtl = mtlOf(mesh, flat)};
-}
-
-std::string plyBytes(const PlantMesh& mesh) {
-  const FlatMesh flat = flattened(mesh);
-  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment Y up; organ is the number of the plant's organ\nelement vertex " +
-                      std::to_string(flat.positions.size()) +
-                      "\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
-                      "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face " +
-                      std::to_string(flat.sources.size()) + "\nproperty list uchar uint vertex_indices\nproperty int organ\nend_header\n";
-  constexpr std::size_t vertexBytes = 27, faceBytes = 17;
-  const std::size_t header = bytes.size();
-  bytes.resize(header + flat.positions.size() * vertexBytes + flat.sources.size() * faceBytes);
-  ByteWriter write(bytes.data() + header);
-  for (std::size_t i = 0; i < flat.positions.size(); ++i) {
-    write.put(flat.positions[i]);
-    write.put(flat.normals[i]);
-    write.put(rgb8FromLinear(flat.colours[i]));
-  }
-  for (std::size_t t = 0; t < flat.sources.size(); ++t) {
-    write.put(std::uint8_t{3});
-    for (std::size_t k = 0; k < 3; ++k) write.put(flat.triangles[3 * t + k]);
-    write.put(flat.sources[t].organ.value);
-  }
-  return bytes;
 }
 
 }  // namespace axil::render
