@@ -97,14 +97,19 @@ Result<Measured> measured(const OpenProject& open, const ChainOptions& options) 
   Measured result{std::move(*views), nodesOf(open.project), {}, {}};
   const bool anyUnknown = std::any_of(result.views.begin(), result.views.end(),
                                       [](const skeleton3d::View& view) { return view.camera.model == skeleton3d::CameraModel::Unknown; });
-  if (!anyUnknown) return result;
+  if (!anyUnknown) {
+    if (auto uncertainty = skeleton3d::uncertaintyOf(result.views, result.nodes)) result.uncertainty = *std::move(uncertainty);
+    return result;
+  }
   options.watch.report("estimating the cameras", 0.2);
-  auto cameras = skeleton3d::estimateCameras(result.views, hintsOf(open.project, focals), result.nodes, {.click_px = options.solve.click_px});
+  auto cameras = skeleton3d::estimateCameras(result.views, hintsOf(open.project, focals), result.nodes);
   if (!cameras) return cameras.failure();
   result.nodes = skeleton3d::withoutSuspects(result.nodes, cameras->suspects);
   result.views = std::move(cameras->views);
   result.cameras = std::move(cameras->reports);
   result.suspects = std::move(cameras->suspects);
+  result.uncertainty = std::move(cameras->uncertainty);
+  result.notes = std::move(cameras->notes);
   return result;
 }
 
@@ -113,7 +118,9 @@ Result<skeleton3d::Skeleton> skeletonOf(const Project& project, const Measured& 
   for (const ProjectStem& stem : project.stems) stems.push_back(stem.stem);
   options.watch.report("solving the skeleton", 0.6);
   auto skeleton = skeleton3d::buildSkeleton(clicks.views, clicks.nodes, stems, options.solve, project.unit);
-  if (!skeleton || project.leaves.empty()) return skeleton;
+  if (!skeleton) return skeleton;
+  *skeleton = skeleton3d::withUncertainty(*std::move(skeleton), clicks.uncertainty);
+  if (project.leaves.empty()) return skeleton;
   const auto presets = presetsOf(project);
   if (!presets) return presets.failure();
   std::vector<quantify::LeafArrangement> leaves;

@@ -42,6 +42,8 @@ struct Measured {
   std::vector<skeleton3d::ClickedNode> nodes;
   std::vector<skeleton3d::CameraReport> cameras;    ///< of the estimated ones
   std::vector<skeleton3d::SuspectClick> suspects;
+  skeleton3d::Uncertainty uncertainty = {};         ///< of the nodes, from the scatter of their clicks and the cameras
+  std::vector<std::string> notes = {};              ///< what a person should look at
 };
 [[nodiscard]] Result<Measured> measured(const OpenProject& open, const ChainOptions& options);
 

@@ -43,6 +43,8 @@ std::string skeletonText(const skeleton3d::Skeleton& skeleton) {
   for (const auto& node : skeleton.nodes) json["nodes"].push_back(nodeJson(node));
   for (const auto& stem : skeleton.stems) json["stems"].push_back(stemJson(stem));
   for (const auto& leaf : skeleton.leaves) json["leaves"].push_back(leafJson(leaf));
+  for (const auto& node : skeleton.incomplete) json["incomplete"].push_back({{"id", node.id.value}, {"views", node.views}});
+  for (const auto stem : skeleton.waiting) json["waiting_stems"].push_back(stem.value);
   return jsonLines(json);
 }
 

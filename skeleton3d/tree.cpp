@@ -200,13 +200,74 @@ Skeleton assembled(const Clicked& clicked, const Parents& parents, const std::ve
   return skeleton;
 }
 
+/// What can be placed of what was clicked, and what waits for another view.
+struct Complete {
+  std::vector<ClickedNode> nodes;
+  std::vector<ClickedStem> stems;
+  std::vector<IncompleteNode> incomplete;
+  std::vector<StemId> waiting;
+};
+
+std::vector<std::string> viewsOf(const ClickedNode& node) {
+  std::vector<std::string> views;
+  for (const auto& [view, click] : node.clicks) views.push_back(view);
+  return views;
+}
+
+/// Drops stems that begin at a node which waits, or are too short without such nodes, until no more do; the nodes that only
+/// they have then wait as well.
+void holdBack(const std::set<NodeId>& open, Complete& complete) {
+  std::set<NodeId> unplaced = open;
+  for (bool again = true; again;) {
+    again = false;
+    for (auto stem = complete.stems.begin(); stem != complete.stems.end();) {
+      const bool cutOff = !stem->nodes.empty() && unplaced.contains(stem->nodes.front());
+      const auto placed = std::count_if(stem->nodes.begin(), stem->nodes.end(), [&](NodeId id) { return !unplaced.contains(id); });
+      if (!cutOff && (placed >= 2 || placed == static_cast<std::ptrdiff_t>(stem->nodes.size()))) {
+        ++stem;
+        continue;
+      }
+      for (std::size_t k = 1; k < stem->nodes.size(); ++k) unplaced.insert(stem->nodes[k]);
+      complete.waiting.push_back(stem->id);
+      stem = complete.stems.erase(stem);
+      again = true;
+    }
+  }
+  for (ClickedStem& stem : complete.stems) std::erase_if(stem.nodes, [&](NodeId id) { return unplaced.contains(id); });
+  std::erase_if(complete.nodes, [&](const ClickedNode& node) { return unplaced.contains(node.id); });
+}
+
+Complete completeOf(std::span<const ClickedNode> nodes, std::span<const ClickedStem> stems) {
+  Complete complete{{nodes.begin(), nodes.end()}, {stems.begin(), stems.end()}, {}, {}};
+  std::set<NodeId> open;
+  for (const ClickedNode& node : nodes)
+    if (node.clicks.size() < 2 && open.insert(node.id).second) complete.incomplete.push_back({node.id, viewsOf(node)});
+  if (!open.empty()) holdBack(open, complete);
+  return complete;
+}
+
+/// A root without a place leaves nothing to join the plant to.
+std::optional<Trouble> rootTrouble(std::span<const ClickedStem> stems, const Complete& complete) {
+  if (complete.incomplete.empty() || !complete.stems.empty() || stems.empty()) return std::nullopt;
+  const IncompleteNode& first = complete.incomplete.front();
+  return Trouble{ErrorCode::NoAnswer, name(first.id) + (first.views.empty() ? " is clicked in no view" : " is clicked in one view only (" + first.views.front() + ")") +
+                                          " and no stem can be placed without it; click it in another view too"};
+}
+
 }  // namespace
 
-Result<Skeleton> buildSkeleton(std::span<const View> views, std::span<const ClickedNode> nodes, std::span<const ClickedStem> stems, const SolveOptions& options,
+Result<Skeleton> buildSkeleton(std::span<const View> views, std::span<const ClickedNode> allNodes, std::span<const ClickedStem> allStems, const SolveOptions& options,
                                std::string unit) {
+  Complete complete = completeOf(allNodes, allStems);
+  if (const auto trouble = rootTrouble(allStems, complete)) return detail::failWith({*trouble}, "the clicks do not make a plant");
+  const std::span<const ClickedNode> nodes = complete.nodes;
+  const std::span<const ClickedStem> stems = complete.stems;
   auto solved = detail::solveAll(views, nodes, options, unit);
   if (!solved) return solved.failure();
   std::vector<Trouble> troubles = std::move(solved->troubles);
+  for (const ClickedNode& node : allNodes)
+    if (node.clicks.size() < 2)
+      for (Trouble& trouble : detail::clickTroubles(views, node)) troubles.push_back(std::move(trouble));
   if (stems.empty()) troubles.push_back(wrong("there is no stem; join the nodes to stems"));
   const Clicked clicked = indexed(nodes, stems, troubles);
   const Parents parents = parentsOf(clicked);
@@ -216,7 +277,10 @@ Result<Skeleton> buildSkeleton(std::span<const View> views, std::span<const Clic
   if (!stems.empty()) checkLooseNodes(clicked, troubles);
   checkLengths(clicked, solved->nodes, troubles);
   if (!troubles.empty()) return detail::failWith(troubles, "the clicks do not make a plant");
-  return assembled(clicked, parents, order, std::move(solved->nodes), std::move(unit));
+  Skeleton skeleton = assembled(clicked, parents, order, std::move(solved->nodes), std::move(unit));
+  skeleton.incomplete = std::move(complete.incomplete);
+  skeleton.waiting = std::move(complete.waiting);
+  return skeleton;
 }
 
 }  // namespace axil::skeleton3d

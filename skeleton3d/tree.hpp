@@ -7,6 +7,9 @@
 /// and no node is left over. The order of stems in the file is free: a parent is put before its children, and otherwise
 /// the file's order kept. Several stems may begin with the root: the first of them in the file is the first stem, the
 /// others are its children.
+///
+/// A node clicked in fewer than two views is no error: it is listed as `incomplete`, its stem runs on without it, and a stem
+/// that begins at it, or has fewer than two placed nodes, waits with all that grows from it. Only the root must have its place.
 /// Source: L-Grammar Generator 2005, section 3.2.2 (the structure must be a tree, without circles).
 
 #include "skeleton3d/solve.hpp"

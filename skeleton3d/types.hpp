@@ -121,12 +121,23 @@ struct Leaf {
   friend bool operator==(const Leaf&, const Leaf&) = default;
 };
 
+/// A node that is kept though it has no place yet: clicked in one view, or with clicks that contradict one another. It takes
+/// its place in its stem as soon as another view sees it.
+struct IncompleteNode {
+  NodeId id;
+  std::vector<std::string> views;  ///< in which it is clicked
+
+  friend bool operator==(const IncompleteNode&, const IncompleteNode&) = default;
+};
+
 struct Skeleton {
   std::string unit = "m";
   NodeId root;
   std::vector<Node> nodes;  ///< in the order they came
   std::vector<Stem> stems;  ///< a parent always before its children
   std::vector<Leaf> leaves;
+  std::vector<IncompleteNode> incomplete = {};  ///< nodes that wait for another view
+  std::vector<StemId> waiting = {};             ///< stems that cannot be joined without them
 
   friend bool operator==(const Skeleton&, const Skeleton&) = default;
 };

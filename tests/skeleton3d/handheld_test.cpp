@@ -119,7 +119,7 @@ TEST(Handheld, RandomTreesAreMeasuredAndWrongClicksNamed) {
     tally.print(one.what);
     EXPECT_LE(tally.median(), one.median) << one.what;
     EXPECT_LE(tally.most(), one.most) << one.what;
-    if (one.options.wrongShare > 0) EXPECT_GE(tally.found, 0.9 * tally.wrong) << one.what;
+    EXPECT_GE(tally.found, 0.9 * tally.wrong) << one.what;
   }
 }
 
@@ -144,7 +144,7 @@ TEST(Handheld, RenderedPlantsReachTheirFigures) {
       EXPECT_LE(tally.median(), 0.004);
       EXPECT_LE(tally.most(), 0.01);
       EXPECT_GE(tally.found, 0.9 * tally.wrong);
-      if (noise_px < 1) EXPECT_LE(percentile(tally.scales, 1), 0.01);
+      EXPECT_LE(percentile(tally.scales, 1), noise_px < 1 ? 0.01 : 0.05);
     }
 }
 
@@ -211,7 +211,6 @@ TEST(Handheld, TwoViewsFromTheSameSideAreNamed) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     auto plant = test::handheldPlant(seed, {.noise_px = 1, .focalError = 0.01, .nodes = 40});
-    auto again = test::handheldPlant(seed, {.noise_px = 1, .focalError = 0.01, .nodes = 40});
     Rng rng(seed + 77);
     const Camera camera = test::handheldCamera(rng, "front", plant.height, {});  // what was called right was taken from the front
     for (std::size_t i = 0; i < plant.nodes.size(); ++i) plant.nodes[i].clicks["right"] = project(camera, plant.places[i]);

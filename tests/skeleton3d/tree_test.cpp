@@ -100,9 +100,32 @@ TEST(BuildSkeleton, RefusesASegmentWithoutLength) {
 
 TEST(BuildSkeleton, ReportsGeometryAndStructureInOneGo) {
   Sketch s = sketch(5, {stem(1, {1, 2, 8}), stem(2, {3, 4}), stem(3, {4, 5, 5})});
-  s.nodes[0].clicks.erase("front");
+  s.nodes[0].clicks["front"].px.y = -300;
   s.nodes[1].clicks["right"].px.y += 300;
   EXPECT_EQ(troublesOf(s).size(), 5u);
+}
+
+TEST(BuildSkeleton, KeepsNodesOfOneViewUntilAnotherSeesThem) {
+  Sketch s = sketch(8, {stem(1, {1, 2, 3, 4}), stem(2, {2, 5, 6}), stem(3, {3, 7, 8})});
+  const Sketch whole = s;
+  s.nodes[2].clicks.erase("front");  // node 3: stem 1 runs on without it, stem 3 has nothing to begin at
+  s.nodes[5].clicks.erase("right");  // node 6, the tip of stem 2
+  const auto tree = build(s);
+  ASSERT_TRUE(tree) << tree.error().message;
+  EXPECT_EQ(tree->incomplete, (std::vector<IncompleteNode>{{NodeId(3), {"right"}}, {NodeId(6), {"front"}}}));
+  EXPECT_EQ(tree->waiting, (std::vector<StemId>{StemId(3)}));
+  EXPECT_EQ(stemOrder(*tree), (std::vector{1, 2}));
+  EXPECT_EQ(tree->stems[0].nodes, (std::vector{NodeId(1), NodeId(2), NodeId(4)}));
+  EXPECT_EQ(tree->stems[1].nodes, (std::vector{NodeId(2), NodeId(5)}));
+  EXPECT_EQ(tree->nodes.size(), 4u);
+  s.nodes[2].clicks = whole.nodes[2].clicks;
+  s.nodes[5].clicks = whole.nodes[5].clicks;
+  EXPECT_EQ(*build(s), *build(whole));
+  EXPECT_TRUE(build(s)->incomplete.empty());
+  s.nodes[5].clicks.clear();  // nowhere is one less than one
+  EXPECT_EQ(build(s)->incomplete.size(), 1u);
+  s.nodes[0].clicks.erase("front");
+  expectTrouble(s, "node 1 is clicked in one view only (right) and no stem can be placed without it");
 }
 
 TEST(BuildSkeleton, CarriesRadiiOverAndFillsGapsAlongAStem) {
