@@ -42,6 +42,15 @@ const Lexicon& lexicon() {
   return built;
 }
 
+const std::vector<Phrase>* phrasesWith(std::string_view word) {
+  const auto found = lexicon().find(word);
+  if (found != lexicon().end()) return &found->second;
+  constexpr std::string_view prefix = "sub";
+  if (word.size() < prefix.size() + 4 || !word.starts_with(prefix)) return nullptr;
+  const auto stem = lexicon().find(word.substr(prefix.size()));
+  return stem == lexicon().end() ? nullptr : &stem->second;
+}
+
 // The token after the last word of `phrase` where it stands at `first`; 0 when it does not stand there.
 std::size_t endOf(const Phrase& phrase, const std::vector<Token>& tokens, std::size_t first) {
   std::size_t at = first + 1;
@@ -67,12 +76,14 @@ const Concept* Found::conceptAs(std::string_view property) const {
   return meaning == nullptr ? nullptr : meaning->entry;
 }
 
+bool isKnownWord(std::string_view word) { return phrasesWith(word) != nullptr; }
+
 std::vector<Found> findPhrases(const std::vector<Token>& tokens) {
   std::vector<Found> found(tokens.size());
   for (std::size_t i = 0; i < tokens.size(); ++i) {
-    const auto phrases = lexicon().find(tokens[i].text);
-    if (phrases == lexicon().end()) continue;
-    for (const Phrase& phrase : phrases->second)
+    const std::vector<Phrase>* phrases = phrasesWith(tokens[i].text);
+    if (phrases == nullptr) continue;
+    for (const Phrase& phrase : *phrases)
       if (const std::size_t end = endOf(phrase, tokens, i); end != 0) {
         found[i] = {&phrase, i, end};
         break;

@@ -36,7 +36,11 @@ struct Found {
   [[nodiscard]] const Concept* conceptAs(std::string_view property) const;
 };
 
-/// For every token the longest phrase that begins at it. Hyphens between the words of a phrase may stand or be left out.
+/// Whether a phrase begins with that word, itself or behind "sub" ("suborbicular").
+[[nodiscard]] bool isKnownWord(std::string_view word);
+
+/// For every token the longest phrase that begins at it. Hyphens between the words of a phrase may stand or be left out,
+/// and "sub" may stand before a Latin word.
 [[nodiscard]] std::vector<Found> findPhrases(const std::vector<Token>& tokens);
 
 }  // namespace axil::keywords

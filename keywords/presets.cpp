@@ -1,6 +1,7 @@
 #include "keywords/presets.hpp"
 
 #include "base/result.hpp"
+#include "base/table.hpp"
 #include "base/text.hpp"
 #include "keywords/lexicon.hpp"
 #include "keywords/vocabulary.hpp"
@@ -23,9 +24,17 @@ double numberIn(const Concept& entry, std::string_view column) {
   return *number;
 }
 
+std::vector<Angle> cycleFrom(const Concept& entry) {
+  std::vector<Angle> cycle;
+  const auto cell = entry.columns.find("cycle_deg");
+  if (cell == entry.columns.end()) return cycle;
+  for (const std::string& turn : splitList(cell->second, ',')) cycle.push_back(Angle::fromDegrees(parseNumber(turn).value_or(0)));
+  return cycle;
+}
+
 ArrangementPreset presetFrom(const Concept& entry) {
   return {entry.name, static_cast<int>(numberIn(entry, "leavesPerNode")), Angle::fromDegrees(numberIn(entry, "divergence_deg")),
-          entry.columns.at("clustered") == "yes"};
+          entry.columns.at("clustered") == "yes", cycleFrom(entry)};
 }
 
 const Concept* conceptNamed(std::string_view property, std::string_view name) {
@@ -114,7 +123,8 @@ std::string drawnShapeOf(std::string_view value) {
   for (std::size_t begin = 0; begin <= value.size();) {
     const std::size_t end = std::min(value.find('-', begin), value.size());
     const Concept* entry = conceptNamed("shape", value.substr(begin, end - begin));
-    if (entry != nullptr && organs::leafShapeNamed(entry->columns.at("shape"))) drawn = entry->columns.at("shape");
+    const bool isFlat = entry != nullptr && entry->columns.contains("shape");
+    if (isFlat && organs::leafShapeNamed(entry->columns.at("shape"))) drawn = entry->columns.at("shape");
     begin = end + 1;
   }
   return drawn;
@@ -136,6 +146,7 @@ std::optional<ArrangementPreset> arrangementNamed(std::string_view name) {
   if (!isUtf8(name)) return std::nullopt;
   const NameAndCount split = splitCount(name);
   const std::vector<std::string> words = wordsOf(split.name);
+  if (const Concept* entry = conceptNamed("arrangement", name)) return presetFrom(*entry);
   for (const Concept& entry : categoryOf("arrangement").concepts)
     for (const std::vector<Term>* terms : {&entry.english, &entry.traditional, &entry.simplified})
       for (const Term& term : *terms) {

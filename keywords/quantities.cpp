@@ -1,7 +1,10 @@
 #include "keywords/quantities.hpp"
 
+#include "keywords/words.hpp"
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -12,45 +15,98 @@ namespace {
 using Tokens = std::vector<Token>;
 
 bool is(const Tokens& tokens, std::size_t i, std::string_view text) { return i < tokens.size() && tokens[i].text == text; }
-bool isNumber(const Tokens& tokens, std::size_t i) { return i < tokens.size() && tokens[i].kind == TokenKind::Number; }
-bool isOpen(const Tokens& tokens, std::size_t i) { return is(tokens, i, "(") || is(tokens, i, "["); }
-bool isClose(const Tokens& tokens, std::size_t i) { return is(tokens, i, ")") || is(tokens, i, "]"); }
-bool isTo(const Tokens& tokens, std::size_t i) { return is(tokens, i, "-") || is(tokens, i, "to") || is(tokens, i, "至") || is(tokens, i, "到"); }
+bool isAny(const Tokens& tokens, std::size_t i, Words words) { return i < tokens.size() && isOneOf(tokens[i].text, words); }
+bool isOpen(const Tokens& tokens, std::size_t i) { return isAny(tokens, i, {"(", "["}); }
+bool isClose(const Tokens& tokens, std::size_t i) { return isAny(tokens, i, {")", "]"}); }
+bool isTo(const Tokens& tokens, std::size_t i) { return isAny(tokens, i, {"-", "to", "至", "到", "或", "or", "and"}); }
 
-bool isOneOf(std::string_view text, std::initializer_list<std::string_view> words) { return std::find(words.begin(), words.end(), text) != words.end(); }
+// ---- single numbers
 
-// "(12-)" or "(12)-" before a range.
+int digitOf(std::string_view han) {
+  constexpr std::array<std::pair<std::string_view, int>, 15> digits{{{"零", 0}, {"〇", 0}, {"一", 1}, {"二", 2}, {"兩", 2}, {"两", 2}, {"三", 3}, {"四", 4}, {"五", 5}, {"六", 6},
+                                                                      {"七", 7}, {"八", 8}, {"九", 9}, {"壹", 1}, {"貳", 2}}};
+  for (const auto& [text, digit] : digits)
+    if (text == han) return digit;
+  return -1;
+}
+
+double scaleOf(std::string_view han) { return han == "十" ? 10 : han == "百" ? 100 : han == "千" ? 1000 : 0; }
+
+// 二十五, 一百二十: digits and what they are multiplied by.
+std::optional<SingleNumber> wholeHan(const Tokens& tokens, std::size_t first) {
+  double sum = 0;
+  int digit = -1;
+  std::size_t at = first;
+  for (; at < tokens.size() && tokens[at].kind == TokenKind::Han; ++at) {
+    if (const int next = digitOf(tokens[at].text); next >= 0) {
+      if (digit > 0) break;  // 三四: two numbers side by side
+      digit = next;
+    } else if (const double scale = scaleOf(tokens[at].text); scale > 0) {
+      sum += (digit < 0 ? 1 : digit) * scale;
+      digit = -1;
+    } else {
+      break;
+    }
+  }
+  if (at == first) return std::nullopt;
+  return SingleNumber{sum + std::max(digit, 0), at};
+}
+
+std::optional<SingleNumber> hanNumber(const Tokens& tokens, std::size_t first) {
+  std::optional<SingleNumber> whole = wholeHan(tokens, first);
+  if (!whole || !isAny(tokens, whole->end, {"點", "点"})) return whole;
+  const int tenths = whole->end + 1 < tokens.size() ? digitOf(tokens[whole->end + 1].text) : -1;
+  if (tenths < 0) return whole;
+  return SingleNumber{whole->value + 0.1 * tenths, whole->end + 2};
+}
+
+std::optional<SingleNumber> englishNumber(const Tokens& tokens, std::size_t first) {
+  constexpr std::array<std::string_view, 13> words{"zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"};
+  const auto found = std::find(words.begin() + 1, words.end(), tokens[first].text);
+  if (found == words.end()) return std::nullopt;
+  return SingleNumber{static_cast<double>(found - words.begin()), first + 1};
+}
+
+// ---- ranges
+
+// "(12-)" or "(12)-" or, before a digit, "(12)".
 std::optional<double> takeMinimum(const Tokens& tokens, std::size_t& at) {
-  if (!isOpen(tokens, at) || !isNumber(tokens, at + 1)) return std::nullopt;
-  const bool inside = is(tokens, at + 2, "-") && isClose(tokens, at + 3);
-  const bool outside = isClose(tokens, at + 2) && is(tokens, at + 3, "-");
-  if (!(inside || outside) || !isNumber(tokens, at + 4)) return std::nullopt;
-  const double minimum = tokens[at + 1].number;
-  at += 4;
-  return minimum;
+  if (!isOpen(tokens, at)) return std::nullopt;
+  const auto minimum = numberAt(tokens, at + 1);
+  if (!minimum) return std::nullopt;
+  std::size_t next = minimum->end;
+  const bool dashed = isAny(tokens, next, {"-", "to", "或", "or"});
+  if (dashed) ++next;
+  if (!isClose(tokens, next)) return std::nullopt;
+  ++next;
+  if (!dashed && is(tokens, next, "-")) ++next;
+  const auto low = numberAt(tokens, next);
+  if (!low || low->value < minimum->value || isAny(tokens, low->end, {")", "]"})) return std::nullopt;
+  at = next;
+  return minimum->value;
 }
 
-// "(-40)", "-(40)" after a range.
-std::optional<double> takeMaximum(const Tokens& tokens, std::size_t& at) {
-  const bool inside = isOpen(tokens, at) && is(tokens, at + 1, "-") && isNumber(tokens, at + 2) && isClose(tokens, at + 3);
-  const bool outside = is(tokens, at, "-") && isOpen(tokens, at + 1) && isNumber(tokens, at + 2) && isClose(tokens, at + 3);
-  if (!inside && !outside) return std::nullopt;
-  const double maximum = tokens[at + 2].number;
-  at += 4;
-  return maximum;
+// "(-40)", "-(40)", "(40)", "(or 6)", "（或5）".
+std::optional<double> takeMaximum(const Tokens& tokens, std::size_t& at, double high) {
+  std::size_t next = at;
+  if (is(tokens, next, "-") && isOpen(tokens, next + 1)) ++next;
+  if (!isOpen(tokens, next)) return std::nullopt;
+  ++next;
+  if (isTo(tokens, next)) ++next;
+  if (isAny(tokens, next, {"rarely", "sometimes", "稀", "to"})) ++next;
+  const auto maximum = numberAt(tokens, next);
+  if (!maximum || !isClose(tokens, maximum->end) || maximum->value <= high) return std::nullopt;
+  at = maximum->end + 1;
+  return maximum->value;
 }
 
-std::optional<int> wordNumber(std::string_view word) {
-  constexpr std::array<std::pair<std::string_view, int>, 22> words{{{"one", 1},   {"two", 2},  {"three", 3}, {"four", 4}, {"five", 5}, {"six", 6},
-                                                                    {"seven", 7}, {"eight", 8}, {"nine", 9}, {"ten", 10}, {"一", 1},   {"二", 2},
-                                                                    {"兩", 2},    {"两", 2},   {"三", 3},    {"四", 4},   {"五", 5},   {"六", 6},
-                                                                    {"七", 7},    {"八", 8},   {"九", 9},    {"十", 10}}};
-  for (const auto& [text, number] : words)
-    if (text == word) return number;
-  return std::nullopt;
+// "3- or 4-", "3- to 5-": the hyphen belongs to the word that follows.
+std::size_t afterJoin(const Tokens& tokens, std::size_t at) {
+  if (is(tokens, at, "-") && isAny(tokens, at + 1, {"or", "to", "-"})) return at + 2;
+  return isTo(tokens, at) ? at + 1 : 0;
 }
 
-bool isTimes(const Tokens& tokens, std::size_t i) { return is(tokens, i, "*") || is(tokens, i, "x") || is(tokens, i, "by"); }
+// ---- units and dimensions
 
 struct Named {
   std::string name;
@@ -63,49 +119,12 @@ std::optional<Named> namedAt(const std::vector<Found>& found, std::size_t at, st
   return entry == nullptr ? std::nullopt : std::optional(Named{entry->name, found[at].end});
 }
 
-// What stands before the number: "length ca.", 長約, "up to". Backwards over the little words to a word of dimension.
-struct Lead {
-  std::string dimension;
-  std::string qualifier;
-  std::size_t first = 0;
-};
-
 std::optional<Named> dimensionEndingAt(const std::vector<Found>& found, std::size_t end) {
-  for (std::size_t back = 1; back <= 3 && back <= end; ++back) {
+  for (std::size_t back = 1; back <= 4 && back <= end; ++back) {
     const Found& f = found[end - back];
     if (f && f.end == end && f.conceptAs("dimension") != nullptr) return Named{f.conceptAs("dimension")->name, end - back};
   }
   return std::nullopt;
-}
-
-Lead leadBefore(const Tokens& tokens, const std::vector<Found>& found, std::size_t number) {
-  Lead lead{{}, {}, number};
-  std::size_t at = number;
-  for (int steps = 0; at > 0 && steps < 5; ++steps) {
-    if (const auto dimension = dimensionEndingAt(found, at)) {
-      lead.dimension = dimension->name;
-      lead.first = dimension->end;
-      return lead;
-    }
-    const std::string_view before = tokens[at - 1].text;
-    if (isOneOf(before, {"to", "達", "达"})) {
-      lead.qualifier = "up to";
-      lead.first = at - 1;
-    } else if (isOneOf(before, {"ca", "about", "approximately", "約", "约"})) {
-      lead.qualifier = lead.qualifier.empty() ? "about" : lead.qualifier;
-      lead.first = at - 1;
-    } else if (isOneOf(before, {"up", "可"}) && lead.qualifier == "up to") {
-      lead.first = at - 1;
-    } else if (!isOneOf(before, {".", ":", "為", "为", "有", "is", "are", "of"})) {
-      return lead;
-    }
-    --at;
-  }
-  return lead;
-}
-
-Size sizeOf(const NumberRange& range, std::string unit, std::string dimension, const Lead& lead, std::size_t end) {
-  return {range, std::move(unit), dimension.empty() ? lead.dimension : std::move(dimension), lead.qualifier, lead.first, end};
 }
 
 struct Measured {
@@ -115,79 +134,143 @@ struct Measured {
   std::size_t end = 0;
 };
 
+bool isTimes(const Tokens& tokens, std::size_t i) { return isAny(tokens, i, {"*", "x", "by"}); }
+
+// 長3公分寬2公分: the word of dimension belongs to the number that follows it.
+bool leadsToNumber(const Tokens& tokens, std::size_t at) {
+  while (isAny(tokens, at, {"約", "约", "可", "達", "达", "各", "為", "为"})) ++at;
+  return numberAt(tokens, at).has_value() || isOpen(tokens, at);
+}
+
+std::string takeDimension(const Tokens& tokens, const std::vector<Found>& found, std::size_t& end) {
+  std::size_t next = end;
+  if (isAny(tokens, next, {"-", "."})) ++next;
+  if (is(tokens, next, "or") && isAny(tokens, next + 1, {"more", "less"})) next += 2;
+  if (is(tokens, next, "(") ) return {};
+  const auto dimension = namedAt(found, next, "dimension");
+  if (!dimension || (tokens[next].kind == TokenKind::Han && leadsToNumber(tokens, dimension->end))) return {};
+  end = dimension->end;
+  return dimension->name;
+}
+
 // A range, its unit and the word after it, as far as they stand.
 std::optional<Measured> measuredAt(const Tokens& tokens, const std::vector<Found>& found, std::size_t at) {
   const std::optional<NumberRange> range = rangeAt(tokens, at);
   if (!range) return std::nullopt;
   Measured m{*range, {}, {}, range->end};
-  if (is(tokens, m.end, "-")) {  // "a 3-cm-long blade"
-    if (namedAt(found, m.end + 1, "unit")) ++m.end;
-  }
-  if (const auto unit = namedAt(found, m.end, "unit")) {
+  const std::size_t unitAt = is(tokens, m.end, "-") && namedAt(found, m.end + 1, "unit") ? m.end + 1 : m.end;  // "a 3-cm-long blade"
+  if (const auto unit = namedAt(found, unitAt, "unit")) {
     m.unit = unit->name;
     m.end = unit->end;
-    std::size_t next = m.end;
-    if (is(tokens, next, "-") || is(tokens, next, ".")) ++next;
-    // 3 cm 長: the word of a following pair "長3公分寬2公分" belongs to the next number.
-    const auto dimension = namedAt(found, next, "dimension");
-    if (dimension && !isNumber(tokens, dimension->end) && !is(tokens, dimension->end, "約") && !is(tokens, dimension->end, "约")) {
-      m.dimension = dimension->name;
-      m.end = dimension->end;
-    }
+    // "5-8 cm (-12)": the exception behind the unit.
+    if (!m.range.maximum) m.range.maximum = takeMaximum(tokens, m.end, m.range.high);
+    m.dimension = takeDimension(tokens, found, m.end);
   }
   return m;
 }
 
+constexpr std::array<const char*, 3> dimensionsInOrder{"length", "width", "thickness"};
+
+std::vector<Measured> chainAt(const Tokens& tokens, const std::vector<Found>& found, std::size_t at) {
+  std::vector<Measured> chain;
+  std::optional<Measured> next = measuredAt(tokens, found, at);
+  while (next) {
+    chain.push_back(*next);
+    if (chain.size() == dimensionsInOrder.size() || !isTimes(tokens, next->end)) break;
+    next = measuredAt(tokens, found, next->end + 1);
+  }
+  // A unit stands for those before it: "3-5 × 2 cm".
+  for (std::size_t i = chain.size(); i-- > 1;)
+    if (chain[i - 1].unit.empty()) chain[i - 1].unit = chain[i].unit;
+  return chain;
+}
+
 }  // namespace
+
+std::optional<SingleNumber> numberAt(const Tokens& tokens, std::size_t first) {
+  if (first >= tokens.size()) return std::nullopt;
+  switch (tokens[first].kind) {
+    case TokenKind::Number: return SingleNumber{tokens[first].number, first + 1};
+    case TokenKind::Han: return hanNumber(tokens, first);
+    case TokenKind::Word: return englishNumber(tokens, first);
+    case TokenKind::Sign: return std::nullopt;
+  }
+  return std::nullopt;
+}
 
 std::optional<NumberRange> rangeAt(const Tokens& tokens, std::size_t first) {
   NumberRange range;
   std::size_t at = first;
   range.minimum = takeMinimum(tokens, at);
-  if (!isNumber(tokens, at)) return std::nullopt;
-  range.low = range.high = tokens[at].number;
-  ++at;
-  if (isTo(tokens, at) && isNumber(tokens, at + 1) && tokens[at + 1].number >= range.low) {
-    range.high = tokens[at + 1].number;
-    at += 2;
+  const auto low = numberAt(tokens, at);
+  if (!low) return std::nullopt;
+  range.low = range.high = low->value;
+  at = low->end;
+  if (const std::size_t joined = afterJoin(tokens, at)) {
+    const auto high = numberAt(tokens, joined);
+    if (high && high->value >= range.low && !isAny(tokens, joined, {"one"})) {
+      range.high = high->value;
+      at = high->end;
+    }
   }
-  range.maximum = takeMaximum(tokens, at);
+  range.maximum = takeMaximum(tokens, at, range.high);
   range.end = at;
   return range;
 }
 
-std::optional<NumberRange> countAt(const Tokens& tokens, std::size_t first) {
-  if (auto range = rangeAt(tokens, first)) return range;
-  if (first >= tokens.size()) return std::nullopt;
-  const std::optional<int> low = wordNumber(tokens[first].text);
-  if (!low) return std::nullopt;
-  NumberRange range;
-  range.low = range.high = *low;
-  range.end = first + 1;
-  const bool joined = isTo(tokens, range.end) || is(tokens, range.end, "or") || is(tokens, range.end, "或");
-  if (const auto high = joined && range.end + 1 < tokens.size() ? wordNumber(tokens[range.end + 1].text) : std::nullopt; high && *high > *low) {
-    range.high = *high;
-    range.end += 2;
+Lead leadBefore(const Tokens& tokens, const std::vector<Found>& found, std::size_t number) {
+  Lead lead{{}, {}, number};
+  std::size_t at = number;
+  for (int steps = 0; at > 0 && steps < 6; ++steps) {
+    if (const auto dimension = dimensionEndingAt(found, at)) {
+      lead.dimensions.insert(lead.dimensions.begin(), dimension->name);
+      lead.first = at = dimension->end;
+      // 長寬: the word right before measures the same number.
+      if (tokens[at].kind == TokenKind::Han && dimensionEndingAt(found, at)) continue;
+      return lead;
+    }
+    const std::string_view before = tokens[at - 1].text;
+    if (isOneOf(before, {"to", "達", "达", "reaching", "≤", "<"})) {
+      lead.qualifier = "up to";
+      lead.first = at - 1;
+    } else if (isOneOf(before, {"ca", "about", "approximately", "約", "约", "approx", "c", "circa", "±", "around", "roughly"})) {
+      lead.qualifier = lead.qualifier.empty() ? "about" : lead.qualifier;
+      lead.first = at - 1;
+    } else if (isOneOf(before, {"up", "可", "長可", "最"}) && lead.qualifier == "up to") {
+      lead.first = at - 1;
+    } else if (isOneOf(before, {"than"}) && at > 1 && isOneOf(tokens[at - 2].text, {"less"})) {
+      lead.qualifier = "up to";
+      lead.first = at - 2;
+      return lead;
+    } else if (!isOneOf(before, {".", ":", "為", "为", "有", "is", "are", "of", "各", "皆"})) {
+      return lead;
+    }
+    --at;
   }
-  return range;
+  return lead;
 }
 
 std::vector<Size> sizesAt(const Tokens& tokens, const std::vector<Found>& found, std::size_t at) {
-  std::optional<Measured> one = measuredAt(tokens, found, at);
-  if (!one) return {};
-  Lead lead = leadBefore(tokens, found, at);
-  // "3 to 5 cm": the word before a second number is no "up to".
-  if (isTimes(tokens, one->end)) {
-    const std::optional<Measured> other = measuredAt(tokens, found, one->end + 1);
-    if (other && !other->unit.empty()) {
-      const std::string unit = one->unit.empty() ? other->unit : one->unit;
-      const std::string first = one->dimension.empty() ? "length" : one->dimension;
-      const std::string second = other->dimension.empty() || other->dimension == first ? "width" : other->dimension;
-      return {sizeOf(one->range, unit, first, lead, other->end), sizeOf(other->range, other->unit, second, lead, other->end)};
-    }
+  const std::vector<Measured> chain = chainAt(tokens, found, at);
+  if (chain.empty() || chain.front().unit.empty()) return {};
+  const Lead lead = leadBefore(tokens, found, at);
+  std::vector<Size> sizes;
+  const auto add = [&](const Measured& m, const std::string& dimension) {
+    sizes.push_back({m.range, m.unit, dimension, lead.qualifier, lead.first, chain.back().end});
+  };
+  if (chain.size() == 1) {
+    const Measured& only = chain.front();
+    if (!only.dimension.empty()) add(only, only.dimension);
+    else if (lead.dimensions.empty()) add(only, {});
+    else
+      for (const std::string& dimension : lead.dimensions) add(only, dimension);
+    return sizes;
   }
-  if (one->unit.empty()) return {};
-  return {sizeOf(one->range, one->unit, one->dimension, lead, one->end)};
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const bool named = !chain[i].dimension.empty() && (i == 0 || chain[i].dimension != sizes.front().dimension);
+    add(chain[i], named ? chain[i].dimension : dimensionsInOrder[i]);
+  }
+  return sizes;
 }
 
 }  // namespace axil::keywords

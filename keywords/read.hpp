@@ -4,8 +4,13 @@
 /// read from; where there are no words there is no trait. Time is linear in the length of the text.
 ///
 /// What a statement is about is the organ named before it ("Leaves opposite, ovate"), or right after an adjective ("opposite
-/// leaves"); a part ("base cordate", "cordate at base") makes a shape the shape of that part. Negated statements yield
-/// nothing, doubtful ones carry their qualifier.
+/// leaves"); a part ("base cordate", "cordate at base") makes a shape the shape of that part, and a piece ("lobes 5, ovate")
+/// makes the statement one about that piece of the organ named before. Negated statements yield nothing, doubtful ones carry
+/// their qualifier.
+///
+/// A paragraph is read only where it is about a plant, and it must say so itself: parts of plants with statements beside them,
+/// or nothing but the words of the vocabulary. A paragraph that names things of other fields (animals, machines, law) must say
+/// much more of plants.
 
 #include "base/result.hpp"
 #include "base/text.hpp"
@@ -18,11 +23,15 @@ namespace axil::keywords {
 
 constexpr std::size_t descriptionLimitBytes = 100'000'000;
 
-/// A file's bytes as text; `encoding` says what they were. Fails with BadInput on what is no text or has no words, and with
-/// LimitReached above descriptionLimitBytes.
+/// A file's bytes as text; `encoding` says what they were: "UTF-8", "UTF-16", "Big5", "GB18030", or several joined with " and "
+/// where lines differ. Fails with BadInput on what is no text or has no words, and with LimitReached above
+/// descriptionLimitBytes.
 [[nodiscard]] Result<DecodedText> decodeDescription(std::string_view bytes);
 
-/// The traits of `text` in reading order. `text` must be UTF-8; fails as decodeDescription does.
+/// What `text` says, in reading order. Text that is not UTF-8 is decoded first; spans are places in the UTF-8 text. Fails as
+/// decodeDescription does.
+[[nodiscard]] Result<Reading> readDescription(std::string_view text);
+/// Only its traits.
 [[nodiscard]] Result<Traits> readTraits(std::string_view text);
 
 }  // namespace axil::keywords

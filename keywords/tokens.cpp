@@ -1,8 +1,16 @@
 #include "keywords/tokens.hpp"
 
+#include "base/result.hpp"
 #include "base/text.hpp"
 
+#include <unicode/normalizer2.h>
+#include <unicode/ubrk.h>
+#include <unicode/unistr.h>
+#include <unicode/utext.h>
+
 #include <algorithm>
+#include <array>
+#include <memory>
 
 namespace axil::keywords {
 
@@ -25,22 +33,49 @@ Decoded decodeAt(std::string_view text, std::size_t i) {
 }
 
 bool isDash(char32_t c) {
-  return (c >= 0x2010 && c <= 0x2015) || c == 0x2212 || c == 0x223C || c == 0x301C || c == '~' || c == 0x02D7 || c == 0x30FC || c == 0x00AD;
+  return (c >= 0x2010 && c <= 0x2015) || c == 0x2212 || c == 0x223C || c == 0x301C || c == '~' || c == 0x02D7 || c == 0x30FC || c == 0xFF5E || c == 0xFE63;
 }
 
 bool isTimes(char32_t c) { return c == 0xD7 || c == 0x2715 || c == 0x2716 || c == 0x2A2F || c == 0x2A09; }
 
-// Full-width forms to plain ones, all dashes to one, all multiplication signs to one, letters to lower case.
-char32_t folded(char32_t c) {
-  if (c >= 0xFF01 && c <= 0xFF5E) c -= 0xFEE0;
+constexpr char32_t softHyphen = 0xAD;
+
+// Signs that Unicode does not fold but botanists use alike.
+char32_t foldedSign(char32_t c) {
   if (c == 0x3000 || c == 0xA0 || c == 0x2009 || c == 0x202F || c == 0xFEFF || c == 0x200B) return ' ';
   if (isDash(c)) return '-';
   if (isTimes(c)) return '*';
   if (c == 0x3014 || c == 0x3010) return '(';
   if (c == 0x3015 || c == 0x3011) return ')';
-  if (c >= 'A' && c <= 'Z') return c + 32;
-  if (c >= 0xC0 && c <= 0xDE && c != 0xD7) return c + 32;
   return c;
+}
+
+// What a character is folded to: mostly one character, for ligatures and units in one sign a few.
+struct Folded {
+  std::array<char32_t, 3> codes{};
+  std::size_t count = 0;
+};
+
+Folded foldedByUnicode(char32_t c) {
+  UErrorCode status = U_ZERO_ERROR;
+  const icu::Normalizer2* normalizer = icu::Normalizer2::getNFKCCasefoldInstance(status);
+  AXIL_ASSERT(U_SUCCESS(status) != 0, "ICU has no normalisation data");
+  icu::UnicodeString text = normalizer->normalize(icu::UnicodeString(static_cast<UChar32>(c)), status);
+  Folded folded;
+  if (U_FAILURE(status) != 0 || text.countChar32() > 3) return {{c}, 1};
+  for (int32_t i = 0; i < text.length(); i = text.moveIndex32(i, 1)) folded.codes[folded.count++] = static_cast<char32_t>(text.char32At(i));
+  return folded;
+}
+
+Folded folded(char32_t c) {
+  if (c >= 'A' && c <= 'Z') return {{c + 32}, 1};
+  if (c < 0x80 && c != '~') return {{c}, 1};
+  if (c == softHyphen) return {{c}, 1};
+  const char32_t sign = foldedSign(c);
+  if (sign != c) return {{sign}, 1};
+  if (c >= 0x4E00 && c <= 0x9FFF) return {{c}, 1};  // unified ideographs stand for themselves
+  const Folded text = foldedByUnicode(c);
+  return text.count == 1 ? Folded{{foldedSign(text.codes[0])}, 1} : text;
 }
 
 bool isBlank(char32_t c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v'; }
@@ -70,38 +105,89 @@ void appendUtf8(std::string& out, char32_t c) {
 }
 
 // Reads one character after another, folded, and remembers places.
-struct Reader {
-  std::string_view text;
-  std::uint32_t firstByte;
-  std::size_t at = 0;
-  std::size_t character = 0;
+class Reader {
+ public:
+  Reader(std::string_view text, std::uint32_t firstByte, std::size_t firstCharacter) : text_(text), firstByte_(firstByte), character_(firstCharacter) { look(); }
 
-  [[nodiscard]] bool done() const { return at >= text.size(); }
-  [[nodiscard]] char32_t peek() const { return done() ? 0 : folded(decodeAt(text, at).code); }
+  [[nodiscard]] bool done() const { return at_ >= text_.size(); }
+  [[nodiscard]] char32_t peek() const { return done() ? 0 : here_.codes[0]; }
   [[nodiscard]] char32_t peekSecond() const {
-    const std::size_t next = at + decodeAt(text, at).length;
-    return next >= text.size() ? 0 : folded(decodeAt(text, next).code);
+    const std::size_t next = at_ + length_;
+    return next >= text_.size() ? 0 : folded(decodeAt(text_, next).code).codes[0];
   }
-  char32_t take() {
-    const Decoded d = decodeAt(text, at);
-    at += d.length;
-    ++character;
-    return folded(d.code);
+  Folded take() {
+    const Folded taken = here_;
+    at_ += length_;
+    ++character_;
+    look();
+    return taken;
   }
-  [[nodiscard]] std::uint32_t byte() const { return firstByte + static_cast<std::uint32_t>(at); }
+  [[nodiscard]] std::uint32_t byte() const { return firstByte_ + static_cast<std::uint32_t>(at_); }
+  [[nodiscard]] std::size_t character() const { return character_; }
+
+ private:
+  void look() {
+    if (done()) return;
+    const Decoded decoded = decodeAt(text_, at_);
+    length_ = decoded.length;
+    here_ = folded(decoded.code);
+  }
+
+  std::string_view text_;
+  std::uint32_t firstByte_;
+  std::size_t at_ = 0;
+  std::size_t character_ = 0;
+  std::size_t length_ = 1;
+  Folded here_;
 };
 
+void append(std::string& letters, const Folded& folded) {
+  for (std::size_t i = 0; i < folded.count; ++i) appendUtf8(letters, folded.codes[i]);
+}
+
 TokenKind takeToken(Reader& reader, std::string& letters) {
-  const char32_t first = reader.take();
-  appendUtf8(letters, first);
+  const Folded taken = reader.take();
+  const char32_t first = taken.codes[0];
+  append(letters, taken);
   if (isHan(first)) return TokenKind::Han;
   if (isDigit(first)) {
-    while (isDigit(reader.peek()) || (reader.peek() == '.' && isDigit(reader.peekSecond()))) appendUtf8(letters, reader.take());
+    while (isDigit(reader.peek()) || (reader.peek() == '.' && isDigit(reader.peekSecond()))) append(letters, reader.take());
     return TokenKind::Number;
   }
   if (!isLetter(first)) return TokenKind::Sign;
-  while (isLetter(reader.peek())) appendUtf8(letters, reader.take());
+  while (isLetter(reader.peek()) || (reader.peek() == softHyphen)) {
+    const Folded next = reader.take();
+    if (next.codes[0] != softHyphen) append(letters, next);
+  }
   return TokenKind::Word;
+}
+
+bool isVisible(char32_t c) { return !isBlank(c) && c != softHyphen && c != 0; }
+
+// ---- word breaks
+
+struct CloseBreaks {
+  void operator()(UBreakIterator* breaks) const { ubrk_close(breaks); }
+};
+struct CloseText {
+  void operator()(UText* text) const { utext_close(text); }
+};
+
+// Chinese has no blanks between words; Unicode's word breaks know a dictionary. A character in a longer word is marked.
+void markWords(std::string_view text, std::uint32_t firstByte, std::vector<Token>& tokens) {
+  UErrorCode status = U_ZERO_ERROR;
+  const std::unique_ptr<UText, CloseText> view(utext_openUTF8(nullptr, text.data(), static_cast<std::int64_t>(text.size()), &status));
+  static thread_local const std::unique_ptr<UBreakIterator, CloseBreaks> breaks(ubrk_open(UBRK_WORD, "zh", nullptr, 0, &status));
+  ubrk_setUText(breaks.get(), view.get(), &status);
+  if (U_FAILURE(status) != 0) return;  // without a dictionary every character is a word of its own
+  std::size_t token = 0;
+  std::int32_t begin = ubrk_first(breaks.get());
+  for (std::int32_t end = ubrk_next(breaks.get()); end != UBRK_DONE; begin = end, end = ubrk_next(breaks.get())) {
+    while (token < tokens.size() && tokens[token].begin < firstByte + static_cast<std::uint32_t>(begin)) ++token;
+    const bool severalHan = end - begin > 4;  // a character has three bytes, rarely four
+    for (; token < tokens.size() && tokens[token].end <= firstByte + static_cast<std::uint32_t>(end); ++token)
+      tokens[token].insideWord = severalHan && tokens[token].kind == TokenKind::Han;
+  }
 }
 
 }  // namespace
@@ -109,15 +195,16 @@ TokenKind takeToken(Reader& reader, std::string& letters) {
 void tokenize(std::string_view text, std::uint32_t firstByte, std::size_t firstCharacter, TokenList& into) {
   into.tokens.clear();
   into.letters.clear();
-  // Folding never lengthens a character, so the letters stay where they are while tokens view them.
-  into.letters.reserve(text.size());
-  Reader reader{text, firstByte, 0, firstCharacter};
+  // Tokens view the letters, so these must never move. Folding a character gives at most three, of three bytes at most.
+  into.letters.reserve(text.size() * 3 + 16);
+  Reader reader(text, firstByte, firstCharacter);
   bool space = false;
   bool lineBreak = false;
+  bool anyHan = false;
   while (!reader.done()) {
-    if (isBlank(reader.peek())) {
+    if (!isVisible(reader.peek())) {
       lineBreak = lineBreak || reader.peek() == '\n';
-      space = true;
+      space = space || reader.peek() != softHyphen;
       reader.take();
       continue;
     }
@@ -125,19 +212,21 @@ void tokenize(std::string_view text, std::uint32_t firstByte, std::size_t firstC
     token.spaceBefore = space;
     token.lineBreakBefore = lineBreak;
     token.begin = reader.byte();
-    token.start = reader.character;
+    token.start = reader.character();
     const std::size_t from = into.letters.size();
     token.kind = takeToken(reader, into.letters);
     token.text = std::string_view(into.letters).substr(from);
     token.end = reader.byte();
-    token.stop = reader.character;
+    token.stop = reader.character();
     if (token.kind == TokenKind::Number) {
       const auto number = parseNumber(token.text);
       if (number) token.number = *number; else token.kind = TokenKind::Sign;
     }
+    anyHan = anyHan || token.kind == TokenKind::Han;
     into.tokens.push_back(token);
     space = lineBreak = false;
   }
+  if (anyHan) markWords(text, firstByte, into.tokens);
 }
 
 std::vector<std::string> wordsOf(std::string_view term) {

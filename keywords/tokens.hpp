@@ -1,8 +1,9 @@
 #pragma once
 /// \file
 /// Private to the room: a description cut into tokens that know their place. A token is a Latin word, one Chinese character, a
-/// number, or one sign. Letters are folded to lower case, full-width forms to plain ones, every kind of dash to '-', every
-/// multiplication sign to '*'; the places are those of the text as it stands.
+/// number, or one sign. Characters are folded as Unicode's NFKC_Casefold does (lower case, full-width forms and ligatures to plain
+/// letters), every kind of dash to '-', every multiplication sign to '*'; soft hyphens inside a word are left out. The places
+/// are those of the text as it stands.
 
 #include <cstdint>
 #include <string>
@@ -23,6 +24,8 @@ struct Token {
   std::size_t stop = 0;
   bool spaceBefore = false;
   bool lineBreakBefore = false;
+  /// Of a Chinese character: Unicode's word breaks put it inside a word of several characters (the 花 in 花費).
+  bool insideWord = false;
 };
 
 /// Tokens and the folded letters that they view. Not copied, since copies would view the original's letters.

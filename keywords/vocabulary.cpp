@@ -15,17 +15,24 @@ struct Source {
   std::string_view part;
   std::string_view table;
   bool ownOrgan = false;
+  std::vector<std::string> organs = {};
+  std::vector<std::string> notOrgans = {};
 };
 
+// In the order in which meanings are tried. "erect" is the habit of a stem and the orientation of a pedicel.
 std::vector<Source> sources() {
+  const std::vector<std::string> bodies{"plant", "stem", "trunk", "rhizome", "root", "pseudobulb"};
   return {
       {"organ", "", "", data::organ},
+      {"which", "", "", data::which},
       {"unit", "", "", data::unit},
       {"dimension", "", "", data::dimension},
       {"stop", "", "", data::stop},
-      {"arrangement", "leaf", "", data::arrangement},
-      {"shape", "leaf", "", data::leaf_shape},
-      {"type", "leaf", "", data::leaf_type},
+      {"foreign", "", "", data::foreign},
+      {"habit", "plant", "", data::habit, false, bodies},
+      {"arrangement", "leaf", "", data::arrangement, false, {}, {"vein", "ovary", "thorn"}},
+      {"type", "leaf", "", data::leaf_type, false, {"leaf", "plant", "stem"}},
+      {"shape", "leaf", "", data::leaf_shape, false, {}, {"stem", "trunk", "branch", "internode", "petiole", "petiolule", "peduncle", "pedicel", "rachis"}},
       {"apex", "leaf", "apex", data::apex},
       {"base", "leaf", "base", data::base},
       {"margin", "leaf", "margin", data::margin},
@@ -34,10 +41,15 @@ std::vector<Source> sources() {
       {"surface", "leaf", "surface", data::surface},
       {"life form", "plant", "", data::life_form, true},
       {"duration", "plant", "", data::duration},
-      {"habit", "plant", "", data::habit},
+      {"branching", "stem", "", data::branching, false, {"stem", "branch", "tendril", "inflorescence", "root", "style", "trunk", "rhizome", "thorn"}},
+      {"orientation", "leaf", "", data::orientation, false, {}, {"plant", "stem", "trunk", "rhizome"}},
+      {"section", "stem", "", data::stem_section},
+      {"position", "inflorescence", "", data::position, false,
+       {"inflorescence", "flower", "ovary", "stamen", "style", "anther", "spikelet", "bud", "flower bud", "tendril", "peduncle", "fruit", "stigma"}},
       {"type", "inflorescence", "", data::inflorescence_type, true},
-      {"form", "flower", "", data::flower_plan, true},
+      {"form", "flower", "", data::flower_plan, false, {"flower", "corolla", "calyx", "perianth", "involucre", "petal", "hypanthium", "plant", "inflorescence", "corona", "ray floret"}},
       {"type", "fruit", "", data::fruit_type, true},
+      {"opening", "fruit", "", data::opening, false, {"fruit", "anther", "bark"}},
       {"colour", "flower", "", data::colour},
   };
 }
@@ -70,7 +82,8 @@ std::vector<Category> readVocabulary() {
   for (const Source& source : sources()) {
     const Result<Table> table = readTable(source.table, source.property);
     AXIL_ASSERT(table.has_value(), "a vocabulary table has rows of unequal length");
-    Category category{std::string(source.property), std::string(source.defaultOrgan), std::string(source.part), source.ownOrgan, {}};
+    Category category{std::string(source.property), std::string(source.defaultOrgan), std::string(source.part), source.ownOrgan, source.organs,
+                      source.notOrgans, {}};
     for (const Table::Row& row : table->rows) category.concepts.push_back(conceptOf(*table, row));
     categories.push_back(std::move(category));
   }

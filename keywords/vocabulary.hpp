@@ -31,6 +31,8 @@ struct Category {
   std::string defaultOrgan;  ///< the organ a statement is about when none is named; "leaf"
   std::string part;          ///< the part of the organ it is about ("margin"); empty: the whole organ
   bool ownOrgan = false;     ///< always about the default organ, whatever is named: a kind of fruit is about the fruit
+  std::vector<std::string> organs;     ///< the organs such a statement can be about; empty: all
+  std::vector<std::string> notOrgans;  ///< and those it cannot be about
   std::vector<Concept> concepts;
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -69,12 +70,24 @@ TEST(ArrangementNamed, CarriesTheNumbersOfTheTable) {
   EXPECT_NEAR(arrangementNamed("decussate")->divergence.degrees(), 90, 1e-12);
   EXPECT_NEAR(arrangementNamed("spirally decussate")->divergence.degrees(), 68.75, 1e-2);
   EXPECT_NEAR(arrangementNamed("opposite superposed")->divergence.degrees(), 0, 1e-12);
+  EXPECT_NEAR(arrangementNamed("pentastichous")->divergence.degrees(), 144, 1e-12);
+  EXPECT_NEAR(arrangementNamed("octastichous")->divergence.degrees(), 135, 1e-12);
+  const auto degreesOf = [](const std::vector<Angle>& cycle) {
+    std::vector<long> degrees;
+    for (const Angle turn : cycle) degrees.push_back(std::lround(turn.degrees()));
+    return degrees;
+  };
+  EXPECT_EQ(degreesOf(arrangementNamed("orixate")->cycle), (std::vector<long>{180, 90, 180, 270}));
+  EXPECT_EQ(degreesOf(arrangementNamed("beech-like")->cycle), (std::vector<long>{90, 270}));
+  EXPECT_TRUE(arrangementNamed("opposite")->cycle.empty());
   EXPECT_TRUE(arrangementNamed("rosette")->clustered);
   EXPECT_FALSE(arrangementNamed("alternate")->clustered);
 }
 
-TEST(DrawnShapeOf, EveryShapeOfTheVocabularyCanBeDrawn) {
-  for (const Concept& shape : categoryOf("shape").concepts) EXPECT_TRUE(organs::leafShapeNamed(drawnShapeOf(shape.name))) << shape.name;
+TEST(DrawnShapeOf, EveryFlatShapeOfTheVocabularyCanBeDrawn) {
+  for (const Concept& shape : categoryOf("shape").concepts)
+    EXPECT_EQ(organs::leafShapeNamed(drawnShapeOf(shape.name)).has_value(), shape.columns.contains("shape")) << shape.name;
+  EXPECT_EQ(drawnShapeOf("globose"), "") << "a body has no outline";
   EXPECT_EQ(drawnShapeOf("ovate-lanceolate"), "lanceolate");
   EXPECT_EQ(drawnShapeOf("unheard"), "");
 }

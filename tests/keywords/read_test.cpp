@@ -175,7 +175,7 @@ TEST(ReadTraits, EverySpanQuotesItsTextExactly) {
 }
 
 TEST(ReadTraits, RefusesWhatIsNoDescription) {
-  for (const std::string& text : {std::string(), std::string(" \n\t "), std::string("a\0b", 3), std::string("\xff\xfe\x00\x01", 4)}) {
+  for (const std::string& text : {std::string(), std::string(" \n\t "), std::string("a\0b", 3), std::string("\x89PNG\r\n\x1a\n\x00\x80", 10), std::string("\x01\x02\x03\x04leaf\x05\x06")}) {
     const Result<Traits> traits = readTraits(text);
     ASSERT_FALSE(traits);
     EXPECT_EQ(traits.error().code, ErrorCode::BadInput);

@@ -1,0 +1,59 @@
+#include "keywords/paragraph.hpp"
+
+#include "base/result.hpp"
+
+#include <algorithm>
+
+namespace axil::keywords {
+
+const Concept& organNamed(std::string_view name) {
+  const std::vector<Concept>& organs = categoryOf("organ").concepts;
+  const auto found = std::find_if(organs.begin(), organs.end(), [&](const Concept& c) { return c.name == name; });
+  AXIL_ASSERT(found != organs.end(), "the vocabulary lacks an organ that the reader speaks of");
+  return *found;
+}
+
+ParagraphReader::ParagraphReader(std::string_view text, std::uint32_t firstByte, const TokenList& list, const Concept* organBefore)
+    : text_(text), firstByte_(firstByte), tokens_(list.tokens), found_(findPhrases(list.tokens)) {
+  scope_.organ = organBefore;
+}
+
+bool ParagraphReader::isCapital(std::size_t i) const {
+  const char first = text_[tokens_[i].begin - firstByte_];
+  return first >= 'A' && first <= 'Z';
+}
+
+bool ParagraphReader::isSentenceEnd(std::size_t i) const {
+  if (isAny(i, {"。", "!", "?", "．"})) return true;
+  if (!is(i, ".")) return false;
+  if (i + 1 == tokens_.size()) return true;
+  if (i > 0 && isAny(i - 1, {"ca", "c", "diam", "var", "subsp", "ssp", "e", "g", "i", "cf", "approx", "fig", "d", "b"})) return false;
+  return isHan(i + 1) || (tokens_[i + 1].spaceBefore && isCapital(i + 1));
+}
+
+// Reads what begins at token i; the token after it.
+std::size_t ParagraphReader::step(std::size_t i) {
+  if (tokens_[i].kind == TokenKind::Sign) noteSign(i);
+  const bool termFirst = found_[i] && hasTraitMeaning(i) && found_[i].end > i + 1;  // 三出複葉, "3-nerved"
+  if (!termFirst) {
+    if (const std::size_t end = readAngle(i)) return end;
+    if (const std::size_t end = readSizes(i)) return end;
+    if (const std::size_t end = readCount(i)) return end;
+  }
+  const Found& f = found_[i];
+  if (!f) return i + 1;
+  if (f.conceptAs("foreign") != nullptr) weighForeign(f);
+  if (f.conceptAs("which") != nullptr && f.as("organ") == nullptr) noteWhich(i);
+  if (f.conceptAs("organ") != nullptr) noteNoun(i);
+  readTerm(i);
+  return f.end;
+}
+
+ParagraphResult ParagraphReader::read() {
+  for (std::size_t i = 0; i < tokens_.size();) i = std::max(step(i), i + 1);
+  if (!isAboutAPlant()) return {};
+  findUnknown();
+  return std::move(result_);
+}
+
+}  // namespace axil::keywords

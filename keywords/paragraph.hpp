@@ -1,0 +1,171 @@
+#pragma once
+/// \file
+/// Private to the room: one paragraph, read in one walk over its tokens. The reader keeps in mind which organ, which piece of it
+/// and which place on it is being spoken of (scope.cpp), reads terms (terms.cpp), counts (counts.cpp) and sizes (sizes.cpp),
+/// and weighs whether the paragraph is about a plant at all (evidence.cpp).
+
+#include "keywords/lexicon.hpp"
+#include "keywords/quantities.hpp"
+#include "keywords/tokens.hpp"
+#include "keywords/types.hpp"
+#include "keywords/words.hpp"
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace axil::keywords {
+
+/// What is being spoken of.
+struct Scope {
+  const Concept* organ = nullptr;
+  const Concept* partner = nullptr;  ///< "sepals and petals 5": the organ named together with it
+  const Concept* piece = nullptr;    ///< lobe, tube, blade
+  const Concept* place = nullptr;    ///< apex, base, margin, surface
+  std::string which;                 ///< "basal"
+  std::size_t organEnd = 0;          ///< token after the last organ, piece or place named
+  bool organInSentence = false;
+  bool subjectInClause = false;   ///< since the last . or ;
+  bool subjectInSegment = false;  ///< since the last comma too
+  bool commaSincePlace = false;
+};
+
+/// A statement that was denied, for finding contradictions.
+struct Denial {
+  Trait trait;
+};
+
+struct ParagraphResult {
+  std::vector<Trait> traits;
+  std::vector<Denial> denials;
+  std::vector<UnknownTerm> unknown;
+};
+
+class ParagraphReader {
+ public:
+  /// `text` begins at byte `firstByte` of the description; `organBefore` is what the text before it, cut off, was about.
+  ParagraphReader(std::string_view text, std::uint32_t firstByte, const TokenList& list, const Concept* organBefore);
+
+  /// All that the paragraph says; nothing when it is not about a plant.
+  ParagraphResult read();
+  [[nodiscard]] const Concept* organ() const { return scope_.organ; }
+
+ private:
+  struct LastTerm {
+    std::size_t end = 0;
+    const Category* category = nullptr;
+    std::string qualifier;
+    bool negated = false;
+    bool kept = false;
+  };
+  struct Measure {
+    std::size_t end = 0;
+    std::string unit;
+  };
+  /// What a number with a word counts: "5-lobed", 5裂, "6-seeded".
+  struct Counted {
+    std::string organ;  ///< empty: the organ in scope
+    std::string piece;
+    std::string unit;
+    std::size_t end = 0;
+  };
+
+  [[nodiscard]] bool is(std::size_t i, std::string_view text) const { return i < tokens_.size() && tokens_[i].text == text; }
+  [[nodiscard]] bool isAny(std::size_t i, Words words) const { return i < tokens_.size() && isOneOf(tokens_[i].text, words); }
+  [[nodiscard]] bool isHan(std::size_t i) const { return i < tokens_.size() && tokens_[i].kind == TokenKind::Han; }
+  [[nodiscard]] bool isCapital(std::size_t i) const;
+  [[nodiscard]] bool isSentenceEnd(std::size_t i) const;
+  std::size_t step(std::size_t i);
+
+  // scope.cpp
+  [[nodiscard]] const Concept* nounAt(std::size_t i, std::string_view role = {}) const;
+  [[nodiscard]] bool isVerbLeaves(std::size_t i) const;
+  [[nodiscard]] bool isPlaceOnly(std::size_t i) const;
+  [[nodiscard]] bool isPlaceOfTermBefore(std::size_t i) const;
+  [[nodiscard]] bool startsALine(std::size_t i) const;
+  [[nodiscard]] bool isRightBehindOrgan(std::size_t i) const;
+  [[nodiscard]] const Concept* ownerOf(const Concept& piece, std::size_t i) const;
+  [[nodiscard]] std::string whichBefore(std::size_t i) const;
+  void noteSign(std::size_t i);
+  void noteNoun(std::size_t i);
+  void noteOrgan(std::size_t i, const Concept& organ);
+  void notePiece(std::size_t i, const Concept& piece);
+  void notePlace(std::size_t i, const Concept& place);
+  void noteWhich(std::size_t i);
+  void enterLeaf(std::size_t end);
+
+  // terms.cpp
+  [[nodiscard]] bool hasTraitMeaning(std::size_t i) const;
+  [[nodiscard]] const Concept* placeAfter(std::size_t end) const;
+  [[nodiscard]] const Concept* organAfter(std::size_t end) const;
+  [[nodiscard]] bool accepts(const Category& category, const Concept* organ) const;
+  [[nodiscard]] const Meaning* meaningFor(const Found& f, const Concept* organ, const Concept* place) const;
+  [[nodiscard]] bool isNegated(std::size_t i) const;
+  [[nodiscard]] std::string qualifierBefore(std::size_t i) const;
+  [[nodiscard]] bool continuesCompound(std::size_t i, const Category& category) const;
+  [[nodiscard]] bool goesElsewhere(std::size_t i, std::size_t end) const;
+  [[nodiscard]] bool isOppositeOfLeaves(std::size_t i) const;
+  void readTerm(std::size_t i);
+  void keepTerm(std::size_t i, const Meaning& meaning, const Concept* organ, bool attributive, const Concept* place, bool placeNamed, const LastTerm& now);
+  void extendCompound(const Found& f, const std::string& value);
+  [[nodiscard]] Trait traitAt(std::size_t first, std::size_t end, const std::string& organ, const std::string& property) const;
+  void quote(Trait& trait, std::size_t first, std::size_t end) const;
+  void keep(Trait trait, bool attributive);
+
+  // counts.cpp
+  [[nodiscard]] bool isGathered(std::size_t i) const;
+  [[nodiscard]] std::size_t afterPerNode(std::size_t i) const;
+  [[nodiscard]] bool leafIsMeant(std::size_t from, std::size_t to) const;
+  [[nodiscard]] Measure measureAt(std::size_t i) const;
+  [[nodiscard]] Counted countedBy(std::size_t i) const;
+  [[nodiscard]] bool isWordWithNumber(std::size_t i) const;
+  [[nodiscard]] std::size_t beforeCount(std::size_t i) const;
+  std::size_t readCount(std::size_t i);
+  std::size_t readLeavesPerNode(std::size_t i, const NumberRange& range);
+  std::size_t readCountedWord(std::size_t i, const NumberRange& range);
+  std::size_t readCountOfOrganBefore(std::size_t i, const NumberRange& range);
+  std::size_t readCountOfOrganAfter(std::size_t i, const NumberRange& range);
+  void addLobedShape(std::size_t i, std::size_t end, const NumberRange& range);
+  void addCount(std::size_t first, std::size_t end, const std::string& organ, const std::string& piece, const NumberRange& range, const std::string& unit);
+
+  // sizes.cpp
+  [[nodiscard]] bool isAltitude(std::size_t i) const;
+  std::size_t readSizes(std::size_t i);
+  std::size_t readAngle(std::size_t i);
+  [[nodiscard]] const Concept* dimensionOfOrganWord() const;
+
+  // evidence.cpp
+  void weighNoun(std::size_t i, const Concept& organ);
+  void weighTerm(std::size_t i, const Meaning& meaning, bool linked);
+  void weighForeign(const Found& f);
+  [[nodiscard]] bool isTold() const;
+  [[nodiscard]] bool isAboutAPlant() const;
+  [[nodiscard]] bool isKnown(std::size_t i) const;
+  [[nodiscard]] double knownShare() const;
+  void findUnknown();
+  void noteUnknownSegment(std::size_t first, std::size_t end);
+
+  std::string_view text_;
+  std::uint32_t firstByte_;
+  const std::vector<Token>& tokens_;
+  std::vector<Found> found_;
+  ParagraphResult result_;
+  Scope scope_;
+  LastTerm last_;
+  std::map<const Concept*, std::size_t> namedAt_;      // where each organ was named last
+  std::vector<std::pair<std::size_t, std::string>> organFrom_;  // which organ was spoken of from which token on, for unknown words
+  double evidence_ = 0;
+  bool organSeen_ = false;   // an organ that only plants have
+  bool bodySeen_ = false;    // a stem, a branch
+  bool strongSeen_ = false;  // a word that only botany uses
+  std::set<const Concept*> organsWeighed_;
+  std::set<const Concept*> termsWeighed_;
+  std::set<std::string> foreignSeen_;
+};
+
+[[nodiscard]] const Concept& organNamed(std::string_view name);
+
+}  // namespace axil::keywords

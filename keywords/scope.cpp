@@ -1,0 +1,214 @@
+// What is being spoken of: organs, their pieces and places, from noun to noun.
+#include "keywords/paragraph.hpp"
+
+#include "base/table.hpp"
+
+#include <algorithm>
+
+namespace axil::keywords {
+
+namespace {
+
+// Statements about form do not fit a whole plant or what carries leaves; an adjective that follows them may be about what they bear.
+bool bears(const Concept& organ) { return isOneOf(organ.name, {"plant", "stem", "root", "bark", "branch", "trunk"}); }
+
+const std::string& roleOf(const Concept& noun) { return noun.columns.at("role"); }
+
+std::vector<std::string> ownersOf(const Concept& piece) { return splitList(piece.columns.at("partOf"), ' '); }
+
+}  // namespace
+
+bool ParagraphReader::isVerbLeaves(std::size_t i) const {
+  if (!is(i, "leaves")) return false;
+  const bool object = isAny(i + 1, {"the", "a", "an", "his", "her", "him", "them", "it", "us", "me", "their", "its", "my", "your", "our", "no", "for", "behind", "home", "little", "much",
+                                    "every", "at", "to", "after", "early", "tomorrow", "town"});
+  const bool subject = i > 0 && isAny(i - 1, {"he", "she", "it", "who", "which", "that", "this", "never", "always", "one", "train", "bus"});
+  return object || subject;
+}
+
+// The organ, piece or place that the phrase at token i names, of that role where one is given.
+const Concept* ParagraphReader::nounAt(std::size_t i, std::string_view role) const {
+  if (i >= tokens_.size() || isVerbLeaves(i)) return nullptr;
+  const Concept* noun = found_[i].conceptAs("organ");
+  if (noun == nullptr || (!role.empty() && roleOf(*noun) != role)) return nullptr;
+  // 花 in 花費, 葉 in a name: one character of a longer word that the vocabulary does not know.
+  const bool oneHan = isHan(i) && found_[i].end == i + 1;
+  const bool aloneInWord = oneHan && tokens_[i].insideWord && !(i + 1 < tokens_.size() && found_[i + 1]) && !(i > 0 && (found_[i - 1] || isAny(i - 1, {"的", "本", "具"})));
+  return aloneInWord ? nullptr : noun;
+}
+
+// "in the axils of leaves", "longer than petals", 與葉: an organ that is only named to place or compare another does not take over.
+bool ParagraphReader::isPlaceOnly(std::size_t i) const {
+  if (i == 0) return false;
+  const bool isMeasuredItself = found_[i].end < tokens_.size() && tokens_[found_[i].end].kind == TokenKind::Number;  // "in racemes 5-10 cm long"
+  std::size_t before = i - 1;
+  if (before > 0 && isAny(before, {"the", "its", "each", "a"})) --before;
+  if (isAny(before, {"without", "lacking", "no", "無", "无", "缺"}) && !is(i, "毛")) return true;
+  if (before > 0 && is(before, "具") && isAny(before - 1, {"不", "未"})) return true;
+  if (isAny(before, {"與", "与"}) && isAny(found_[i].end, {"呈", "成", "夾", "夹", "間", "间", "等", "對", "对", "同"})) return true;
+  if (isAny(before, {"than", "to", "與", "与", "和", "短", "exceeding", "於", "于", "near", "towards", "from", "among", "between", "above", "below", "on"}) && !isMeasuredItself) {
+    const bool afterTo = is(before, "to") && before > 0 && (nounAt(before - 1) != nullptr || found_[before - 1]);  // "shrubs to small trees"
+    return scope_.organInSentence && !afterTo && !(isAny(before, {"和", "與", "与"}) && before > 0 && nounAt(before - 1) != nullptr);
+  }
+  if (!scope_.organInSentence || isMeasuredItself) return false;
+  if (before > 0 && is(before, "of") && isAny(before - 1, {"pairs", "pair", "whorls", "clusters", "fascicles", "consisting", "composed"})) return false;
+  return isAny(before, {"of", "in", "at", "by"}) && nounAt(i) != nullptr && nounAt(i)->name != "inflorescence";
+}
+
+bool ParagraphReader::isPlaceOfTermBefore(std::size_t i) const {
+  std::size_t at = i;
+  while (at > 0 && isAny(at - 1, {"the", "at", "toward", "towards", "near", "its"})) --at;
+  return at < i && last_.end == at && last_.kept;
+}
+
+// A list of lines without full stops: "Leaves: opposite / Flowers: white".
+bool ParagraphReader::startsALine(std::size_t i) const { return tokens_[i].lineBreakBefore && (isHan(i) || isCapital(i)); }
+
+bool ParagraphReader::isRightBehindOrgan(std::size_t i) const {
+  std::size_t at = i;
+  while (at > scope_.organEnd && (isAny(at - 1, {"are", "is", ":", "呈", "為", "为", "有", "具", "ca", ".", "up", "to", "約", "约", "長", "长", "高", "(", "可", "達", "达"}) || !qualifierOf(tokens_[at - 1].text).empty()))
+    --at;
+  return scope_.organ != nullptr && at == scope_.organEnd && i >= scope_.organEnd;
+}
+
+// The organ that a piece belongs to: one that the word itself names (萼筒), the organ in scope, the one named last, else the first
+// that can have it.
+const Concept* ParagraphReader::ownerOf(const Concept& piece, std::size_t i) const {
+  const std::vector<std::string> owners = ownersOf(piece);
+  for (std::size_t k = i; k < found_[i].end; ++k) {
+    if (is(k, "萼")) return &organNamed("calyx");
+    if (is(k, "冠")) return &organNamed("corolla");
+  }
+  const auto canHave = [&](const Concept& organ) { return std::find(owners.begin(), owners.end(), organ.name) != owners.end(); };
+  if (scope_.organ != nullptr && canHave(*scope_.organ)) return scope_.organ;
+  const Concept* latest = nullptr;
+  std::size_t latestAt = 0;
+  for (const auto& [organ, at] : namedAt_)
+    if (canHave(*organ) && (latest == nullptr || at > latestAt)) {
+      latest = organ;
+      latestAt = at;
+    }
+  return latest != nullptr ? latest : &organNamed(owners.front());
+}
+
+// "basal leaves", 基生葉, "staminate flowers".
+std::string ParagraphReader::whichBefore(std::size_t i) const {
+  if (i > 0)
+    for (std::size_t back = 1; back <= 2 && back <= i; ++back) {
+      const Found& before = found_[i - back];
+      if (before && before.end == i)
+        if (const Concept* which = before.conceptAs("which")) return which->name;
+    }
+  if (!isHan(i) || found_[i].end < i + 2) return {};
+  for (const Concept& which : categoryOf("which").concepts)
+    for (const std::vector<Term>* terms : {&which.traditional, &which.simplified})
+      for (const Term& term : *terms) {
+        const std::vector<std::string> words = wordsOf(term.words);
+        bool same = i + words.size() < found_[i].end;
+        for (std::size_t k = 0; same && k < words.size(); ++k) same = is(i + k, words[k]);
+        if (same) return which.name;
+      }
+  return {};
+}
+
+void ParagraphReader::noteSign(std::size_t i) {
+  const bool sentence = isSentenceEnd(i);
+  if (sentence) {
+    scope_.organInSentence = false;
+    scope_.piece = nullptr;
+    scope_.which.clear();
+  }
+  if (sentence || isAny(i, {";", "；"})) {
+    scope_.subjectInClause = scope_.subjectInSegment = false;
+    scope_.place = nullptr;
+    scope_.partner = nullptr;
+  }
+  if (isAny(i, {",", "、"})) {
+    scope_.subjectInSegment = false;
+    scope_.commaSincePlace = true;
+  }
+}
+
+void ParagraphReader::noteNoun(std::size_t i) {
+  const Concept* noun = nounAt(i);
+  if (noun == nullptr) return;
+  const std::string& role = roleOf(*noun);
+  if (role == "region") return notePlace(i, *noun);
+  if (role == "sub") return notePiece(i, *noun);
+  if (role == "blade") {
+    const std::string which = whichBefore(i);
+    noteOrgan(i, organNamed("leaf"));
+    if (scope_.organEnd == found_[i].end) {
+      scope_.piece = noun;
+      scope_.which = which;
+    }
+    return;
+  }
+  noteOrgan(i, *noun);
+}
+
+void ParagraphReader::noteOrgan(std::size_t i, const Concept& organ) {
+  weighNoun(i, organ);
+  namedAt_[&organ] = i;
+  if (isPlaceOnly(i)) return;
+  const bool isMeasuredAgainst = isAny(found_[i].end, {"呈", "成", "夾", "夹", "間", "间", "之", "的", "等", "對", "对", "同"});
+  const bool together = !isMeasuredAgainst && i > 0 && isAny(i - 1, {"and", "及", "和", "與", "与"}) && scope_.organEnd == i - 1 && scope_.organ != nullptr && scope_.organ != &organ;
+  const Concept* partner = together ? scope_.organ : nullptr;
+  // A plant or a twig bears what follows ("a shrub with opposite, ovate leaves"); it is not what the adjectives are about.
+  const bool isSubject = !bears(organ) || isRightBehindOrgan(i);
+  scope_ = {&organ, partner, nullptr, nullptr, whichBefore(i), found_[i].end, true, isSubject, true, false};
+  organFrom_.emplace_back(i, organ.name);
+}
+
+void ParagraphReader::notePiece(std::size_t i, const Concept& piece) {
+  // "wings", "teeth", "scale" are no pieces of a plant before any of its organs was named.
+  const bool isWeak = found_[i].as("organ")->everyday && namedAt_.empty() && scope_.organ == nullptr;
+  if (isWeak || isPlaceOnly(i)) return;
+  const Concept* owner = ownerOf(piece, i);
+  if (!found_[i].as("organ")->everyday) weighNoun(i, *owner);
+  scope_.organ = owner;
+  scope_.piece = &piece;
+  scope_.place = scope_.partner = nullptr;
+  scope_.organEnd = found_[i].end;
+  scope_.organInSentence = scope_.subjectInClause = scope_.subjectInSegment = true;
+  scope_.commaSincePlace = false;
+  organFrom_.emplace_back(i, owner->name);
+}
+
+void ParagraphReader::notePlace(std::size_t i, const Concept& place) {
+  // "cordate at base" has taken its place along; "at base cordate" opens one.
+  if (isPlaceOfTermBefore(i)) {
+    scope_.commaSincePlace = true;
+    return;
+  }
+  if (!found_[i].as("organ")->everyday) {  // 葉緣 names the leaf too
+    evidence_ += 1;
+    organSeen_ = organSeen_ || isHan(i);
+  }
+  if (scope_.organ == nullptr || isOneOf(scope_.organ->name, {"plant", "petiole", "vein", "stipule"})) {
+    scope_.organ = &organNamed("leaf");
+    scope_.piece = nullptr;
+  }
+  const bool namesLeaf = isHan(i) && isAny(i, {"葉", "叶"});
+  if (namesLeaf && scope_.organ->name != "leaflet") scope_.organ = &organNamed("leaf");
+  scope_.organInSentence = scope_.subjectInSegment = true;
+  scope_.place = &place;
+  scope_.organEnd = found_[i].end;
+  scope_.commaSincePlace = false;
+}
+
+// 下部互生，上部對生: without an organ behind it the word holds until the next of its kind.
+void ParagraphReader::noteWhich(std::size_t i) {
+  const std::size_t end = found_[i].end;
+  const bool opensSegment = i == 0 || isAny(i - 1, {",", ";", "、", "；"}) || (scope_.organ != nullptr && scope_.organEnd == i);
+  if (!opensSegment || !isHan(i) || nounAt(end) != nullptr || !scope_.organInSentence) return;
+  scope_.which = found_[i].conceptAs("which")->name;
+}
+
+void ParagraphReader::enterLeaf(std::size_t end) {
+  const std::string which = scope_.organ != nullptr && scope_.organ->name == "leaf" ? scope_.which : "";
+  scope_ = {&organNamed("leaf"), nullptr, nullptr, nullptr, which, end, true, true, true, false};
+  namedAt_[scope_.organ] = end;
+}
+
+}  // namespace axil::keywords

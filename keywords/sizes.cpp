@@ -1,0 +1,79 @@
+// Sizes and angles: whose they are.
+#include "keywords/paragraph.hpp"
+
+#include <algorithm>
+
+namespace axil::keywords {
+
+bool ParagraphReader::isAltitude(std::size_t i) const {
+  for (std::size_t back = 1; back <= 7 && back <= i; ++back) {
+    if (isAny(i - back, {"elevation", "elevations", "altitude", "altitudes", "alt", "elev", "拔", "depth", "depths", "apart", "distance"})) return true;
+    if (isAny(i - back, {";", "。", "；"}) || nounAt(i - back) != nullptr) return false;
+  }
+  return false;
+}
+
+std::size_t ParagraphReader::readSizes(std::size_t i) {
+  const std::vector<Size> sizes = sizesAt(tokens_, found_, i);
+  if (sizes.empty()) return 0;
+  const std::size_t end = sizes.front().end;
+  const bool ofPlace = scope_.place != nullptr && scope_.place->name != "surface" && !scope_.commaSincePlace;
+  const bool elsewhere = isAltitude(i) || isAny(end, {"a", "above", "asl", "apart", "below", "deep", "from", "away"});
+  const Concept* attributive = organAfter(end);
+  const Concept* organ = attributive != nullptr && attributive != scope_.organ && !scope_.subjectInClause ? attributive : scope_.organ;
+  if (!(scope_.organInSentence || organ == attributive) || organ == nullptr || ofPlace || elsewhere) return end;
+  const Concept* piece = organ == scope_.organ ? scope_.piece : nullptr;
+  const std::string& bare = piece != nullptr ? piece->columns.at("size") : organ->columns.at("size");
+  for (const Size& size : sizes) {
+    // 胸徑 names the trunk and the diameter in one word; the organ's own word can say what a bare number measures.
+    const Concept* ownWord = scope_.organEnd > 0 && isRightBehindOrgan(size.first) && size.dimension.empty() ? dimensionOfOrganWord() : nullptr;
+    const std::string property = !size.dimension.empty() ? size.dimension : ownWord != nullptr ? ownWord->name : bare;
+    // A bare size belongs to a whole plant only right behind its name: "Shrub 2-3 m", "Trees deciduous, to 25 m".
+    const bool isFar = i > scope_.organEnd + 8;
+    if (size.dimension.empty() && property == "height" && isFar) continue;
+    evidence_ += (size.dimension.empty() ? 0 : 0.5) + (isRightBehindOrgan(size.first) ? 1 : 0);
+    Trait trait = traitAt(size.first, size.end, organ->name, property);
+    const bool onlyUpTo = size.qualifier == "up to" && size.range.low == size.range.high;
+    if (!onlyUpTo) trait.low = size.range.low;
+    trait.high = size.range.high;
+    trait.minimum = size.range.minimum;
+    trait.maximum = size.range.maximum;
+    trait.unit = size.unit;
+    trait.qualifier = size.qualifier;
+    if (piece != nullptr) trait.part = piece->name;
+    trait.which = scope_.which;
+    keep(std::move(trait), organ != scope_.organ);
+  }
+  return end;
+}
+
+const Concept* ParagraphReader::dimensionOfOrganWord() const {
+  for (std::size_t at = scope_.organEnd; at-- > 0 && at + 6 > scope_.organEnd;)
+    if (found_[at] && found_[at].end == scope_.organEnd && found_[at].as("organ") != nullptr) return found_[at].conceptAs("dimension");
+  return nullptr;
+}
+
+// "at 45 degrees", "30-45°", 夾角40～50度.
+std::size_t ParagraphReader::readAngle(std::size_t i) {
+  const std::optional<NumberRange> range = rangeAt(tokens_, i);
+  if (!range || range->high > 360) return 0;
+  const std::size_t sign = range->end;
+  // 1° behind the first number too: "30°-45°".
+  if (!isAny(sign, {"°", "degrees", "degree", "度"}) || isAny(sign + 1, {"c", "f", "n", "s", "e", "w"})) return 0;
+  const std::size_t end = is(sign, "度") && is(sign + 1, "角") ? sign + 2 : sign + 1;
+  if (scope_.organ == nullptr || !scope_.organInSentence) return end;
+  bool isDivergence = false;
+  for (std::size_t back = 1; back <= 6 && back <= i; ++back) isDivergence = isDivergence || isAny(i - back, {"divergence", "divergent"}) || (is(i - back, "散") && i > back && is(i - back - 1, "開"));
+  Trait trait = traitAt(i, end, scope_.organ->name, isDivergence ? "divergence" : "angle");
+  trait.low = range->low;
+  trait.high = range->high;
+  trait.minimum = range->minimum;
+  trait.maximum = range->maximum;
+  trait.unit = "°";
+  trait.which = scope_.which;
+  evidence_ += 0.5;
+  keep(std::move(trait), false);
+  return end;
+}
+
+}  // namespace axil::keywords

@@ -1,0 +1,226 @@
+// Terms of the vocabulary: what each says, of what, how surely.
+#include "keywords/paragraph.hpp"
+
+#include "base/table.hpp"
+
+#include <algorithm>
+
+namespace axil::keywords {
+
+namespace {
+
+bool isGrammarWord(const Category& category) { return isOneOf(category.property, {"organ", "which", "unit", "dimension", "stop", "foreign"}); }
+
+bool contains(const std::vector<std::string>& list, const std::string& name) { return std::find(list.begin(), list.end(), name) != list.end(); }
+
+bool isBody(const Concept& organ) { return isOneOf(organ.name, {"plant", "stem", "trunk", "bark", "root"}); }
+
+// A shape that a flat outline draws, or one of a body.
+bool isOutline(const Category& category, const Concept& entry) { return category.property == "shape" && entry.columns.contains("shape"); }
+
+}  // namespace
+
+bool ParagraphReader::hasTraitMeaning(std::size_t i) const {
+  return found_[i] && std::any_of(found_[i].phrase->meanings.begin(), found_[i].phrase->meanings.end(),
+                                  [](const Meaning& m) { return !isGrammarWord(*m.category); });
+}
+
+// The place in "cordate at the base", "serrated margins".
+const Concept* ParagraphReader::placeAfter(std::size_t end) const {
+  if (const Concept* right = nounAt(end, "region"); right != nullptr && !isHan(end)) return right;
+  if (!isAny(end, {"at", "toward", "towards", "near", "above", "on"})) return nullptr;
+  std::size_t at = end + 1;
+  while (isAny(at, {"the", "its", "both"})) ++at;
+  return nounAt(at, "region");
+}
+
+// The organ in "opposite, broadly ovate leaves", "對生的葉", seen from behind an adjective.
+const Concept* ParagraphReader::organAfter(std::size_t end) const {
+  bool comma = false;
+  bool linked = false;  // 的
+  std::size_t at = end;
+  for (int steps = 0; steps < 10 && at < tokens_.size(); ++steps) {
+    if (const Concept* organ = nounAt(at); organ != nullptr && !isOneOf(organ->columns.at("role"), {"region", "sub"})) {
+      if (startsALine(at) || (at > 0 && isAny(at - 1, {",", "、", ";"}))) return nullptr;
+      const Concept* named = organ->columns.at("role") == "blade" ? &organNamed("leaf") : organ;
+      if (isHan(at)) return linked || !scope_.subjectInSegment ? named : nullptr;
+      return !comma || !scope_.subjectInClause ? named : nullptr;
+    }
+    if (isAny(at, {"的", "之"})) {
+      linked = true;
+      ++at;
+    } else if (isAny(at, {",", "、"})) {
+      comma = true;
+      ++at;
+    } else if (isAny(at, {"and", "or", "to", "-", "至", "或", "和"}) || !qualifierOf(tokens_[at].text).empty()) {
+      ++at;
+    } else if (hasTraitMeaning(at) || (found_[at] && found_[at].conceptAs("which") != nullptr)) {
+      at = found_[at].end;
+    } else {
+      return nullptr;
+    }
+  }
+  return nullptr;
+}
+
+bool ParagraphReader::accepts(const Category& category, const Concept* organ) const {
+  const std::string& name = organ != nullptr ? organ->name : category.defaultOrgan;
+  if (category.ownOrgan) return true;
+  return (category.organs.empty() || contains(category.organs, name)) && !contains(category.notOrgans, name);
+}
+
+// Of a phrase's meanings the one that fits: "cordate" of a base, "rounded" of an apex, "erect" of a stem or of a pedicel.
+const Meaning* ParagraphReader::meaningFor(const Found& f, const Concept* organ, const Concept* place) const {
+  const Meaning* whole = nullptr;
+  const Meaning* loose = nullptr;  // of a place that is not named: "leaves ovate, acute, entire"
+  const Meaning* other = nullptr;
+  for (const Meaning& m : f.phrase->meanings) {
+    if (isGrammarWord(*m.category)) continue;
+    if (place != nullptr && m.category->part == place->name) return &m;
+    const bool fits = accepts(*m.category, organ);
+    if (fits && m.category->part.empty() && whole == nullptr) whole = &m;
+    if (fits && !m.category->part.empty() && loose == nullptr) loose = &m;
+    if (!fits && other == nullptr) other = &m;
+  }
+  if (whole != nullptr) return whole;
+  return loose != nullptr ? loose : other;
+}
+
+bool ParagraphReader::isNegated(std::size_t i) const {
+  const bool linkedToNegated = last_.negated && i > 0 && last_.end == i - 1 && isAny(i - 1, {"or", "nor", "或"});
+  if (linkedToNegated) return true;
+  for (std::size_t back = 1; back <= 4 && back <= i; ++back) {
+    const std::string_view word = tokens_[i - back].text;
+    if (negates(word)) return isHan(i) ? back <= 2 : true;
+    const bool passes = isOneOf(word, {"-", "truly", "strictly", "in", "呈", "為", "为", "具", "是", "被", "a", "all", "有"});
+    if (!passes && qualifierOf(word).empty()) return false;
+  }
+  return false;
+}
+
+std::string ParagraphReader::qualifierBefore(std::size_t i) const {
+  if (i == 0) return {};
+  std::string qualifier(qualifierOf(tokens_[i - 1].text));
+  // "rarely in whorls", "usually very broadly ovate": a word further.
+  for (std::size_t back = 2; qualifier.empty() && back <= 3 && back <= i; ++back)
+    if (isAny(i - back + 1, {"-", "very", "為", "为", "呈", "in", "具", "有", "被"})) qualifier = qualifierOf(tokens_[i - back].text);
+  const bool linked = (last_.qualifier == "rarely" || last_.qualifier == "sometimes") && last_.end + 1 == i && isAny(i - 1, {"or", "或"});
+  return qualifier.empty() && linked ? last_.qualifier : qualifier;
+}
+
+// "ovate-lanceolate", 卵狀披針形, "purplish black": the second half of one form or colour.
+bool ParagraphReader::continuesCompound(std::size_t i, const Category& category) const {
+  if (!last_.kept || last_.category != &category || result_.traits.empty()) return false;
+  if (category.property == "colour") return last_.end == i || (last_.end + 1 == i && is(i - 1, "-"));
+  if (!isOneOf(category.property, {"shape", "margin"})) return false;
+  if (isHan(i)) return category.property == "shape" && last_.end == i && isAny(i - 1, {"狀", "状", "圓", "圆"});
+  return last_.end + 1 == i && is(i - 1, "-");
+}
+
+// "opposite the window", but not "whorls of 4", "spikes 5 cm long".
+bool ParagraphReader::goesElsewhere(std::size_t i, std::size_t end) const {
+  if (end >= tokens_.size() || nounAt(i) != nullptr || !leadsElsewhere(tokens_[end].text)) return false;
+  return !(is(end, "of") && rangeAt(tokens_, end + 1));
+}
+
+// "tendrils simple, opposite leaves": where the leaves only say the place.
+bool ParagraphReader::isOppositeOfLeaves(std::size_t i) const {
+  const bool besides = scope_.organ != nullptr && isOneOf(scope_.organ->name, {"tendril", "inflorescence", "peduncle", "stipule", "bud"}) && scope_.subjectInClause;
+  const Concept* next = nounAt(found_[i].end);
+  return is(i, "opposite") && besides && next != nullptr && next->name == "leaf";
+}
+
+void ParagraphReader::quote(Trait& trait, std::size_t first, std::size_t end) const {
+  trait.span = {tokens_[first].begin, tokens_[end - 1].end};
+  trait.start = tokens_[first].start;
+  trait.end = tokens_[end - 1].stop;
+  trait.text = std::string(text_.substr(trait.span.begin - firstByte_, trait.span.end - trait.span.begin));
+}
+
+Trait ParagraphReader::traitAt(std::size_t first, std::size_t end, const std::string& organ, const std::string& property) const {
+  Trait trait;
+  trait.organ = organ;
+  trait.property = property;
+  quote(trait, first, end);
+  return trait;
+}
+
+// What is said of two organs together is said of each.
+void ParagraphReader::keep(Trait trait, bool attributive) {
+  const bool ofBoth = !attributive && scope_.partner != nullptr && scope_.organ != nullptr && trait.organ == scope_.organ->name;
+  if (ofBoth) {
+    Trait other = trait;
+    other.organ = scope_.partner->name;
+    result_.traits.push_back(std::move(other));
+  }
+  result_.traits.push_back(std::move(trait));
+}
+
+void ParagraphReader::extendCompound(const Found& f, const std::string& value) {
+  Trait& trait = result_.traits.back();
+  trait.value += "-" + value;
+  trait.span.end = tokens_[f.end - 1].end;
+  trait.end = tokens_[f.end - 1].stop;
+  trait.text = std::string(text_.substr(trait.span.begin - firstByte_, trait.span.end - trait.span.begin));
+}
+
+void ParagraphReader::keepTerm(std::size_t i, const Meaning& meaning, const Concept* organ, bool attributive, const Concept* place, bool placeNamed, const LastTerm& now) {
+  const Found& f = found_[i];
+  const Category& category = *meaning.category;
+  const bool ofForm = isOneOf(category.property, {"arrangement", "shape", "type", "margin", "apex", "base"});
+  const bool fitsBody = organ != nullptr && category.property == "shape" && (organ->name == "root" || (organ->name == "plant" && !isOutline(category, *meaning.entry)));
+  const bool perennial = category.property == "duration" && isOneOf(meaning.entry->name, {"annual", "biennial", "perennial"});
+  const bool takesDefault = organ == nullptr || category.ownOrgan || perennial || !accepts(category, organ) || (ofForm && isBody(*organ) && !fitsBody);
+  const bool placeHolds = place != nullptr && isOneOf(place->name, {"apex", "base"}) && category.property == "shape" && (placeNamed || !scope_.commaSincePlace);
+  Trait trait = traitAt(f.first, f.end, takesDefault ? category.defaultOrgan : organ->name, placeHolds ? place->name : category.property);
+  trait.value = meaning.entry->name;
+  trait.qualifier = now.qualifier;
+  if (!takesDefault && !attributive && scope_.piece != nullptr) trait.part = scope_.piece->name;
+  if (!takesDefault && !attributive) trait.which = scope_.which;
+  if (trait.part.empty() && place != nullptr && place->name == "surface" && !scope_.commaSincePlace) trait.part = "surface";
+  if (now.negated) {
+    result_.denials.push_back({std::move(trait)});
+    return;
+  }
+  if (category.property == "form" && takesDefault) trait.organ = "flower";
+  keep(std::move(trait), attributive);
+}
+
+void ParagraphReader::readTerm(std::size_t i) {
+  const Found& f = found_[i];
+  if (!hasTraitMeaning(i) || isOppositeOfLeaves(i)) return;
+  if (f.as("organ") != nullptr && nounAt(i) == nullptr) return;
+  const Concept* attributive = organAfter(f.end);
+  const Concept* organ = attributive != nullptr ? attributive : scope_.organ;
+  const Concept* named = placeAfter(f.end);
+  const Concept* place = named != nullptr ? named : (attributive != nullptr ? nullptr : scope_.place);
+  const Meaning* meaning = meaningFor(f, organ, place);
+  if (meaning == nullptr) return;
+  const bool atItsPlace = place != nullptr && place->name == meaning->category->part;
+  const bool ofBase = meaning->category->part == "base" || (meaning->category->part == "apex" && isOneOf(meaning->entry->name, {"rounded", "truncate", "bilobed"}));
+  if (meaning->everyday && ofBase && !atItsPlace) return;  // "sepals unequal"
+  const bool inSentence = scope_.organInSentence || attributive != nullptr || named != nullptr;
+  if (meaning->everyday && (!inSentence || goesElsewhere(i, f.end)) && !(meaning->category->ownOrgan && f.as("organ") != nullptr)) return;
+  // A place with statements of its own keeps what follows a comma only where the meaning is of that place.
+  if (place != nullptr && named == nullptr && scope_.commaSincePlace && !atItsPlace) place = nullptr;
+  const bool ofForm = isOneOf(meaning->category->property, {"arrangement", "shape", "type", "margin"});
+  const bool bodyShape = organ != nullptr && organ->name == "plant" && meaning->category->property == "shape" && !isOutline(*meaning->category, *meaning->entry);
+  if (ofForm && organ != nullptr && isBody(*organ) && meaning->everyday && !bodyShape && f.as("organ") == nullptr && meaning->category->property != "type") return;
+  if (meaning->category->property == "type" && meaning->category->defaultOrgan == "leaf" && meaning->everyday && (organ == nullptr || organ->name != "leaf")) return;
+  // "terminal leaflet", 葉叢生枝端: the word says which leaflet, or where the leaves are.
+  const bool saysWhere = meaning->category->property == "position" && organ != nullptr;
+  if (!accepts(*meaning->category, organ) && (meaning->everyday || saysWhere)) return;
+
+  LastTerm now{f.end, meaning->category, qualifierBefore(i), isNegated(i), false};
+  weighTerm(i, *meaning, attributive != nullptr || named != nullptr || isRightBehindOrgan(i));
+  now.kept = !now.negated;
+  if (now.kept && continuesCompound(i, *meaning->category)) extendCompound(f, meaning->entry->name);
+  else keepTerm(i, *meaning, organ, attributive != nullptr, place, named != nullptr, now);
+  last_ = now;
+  // 羽狀複葉,長20公分: the phrase has named the leaf itself.
+  const auto isLeafWord = [](const std::string& word) { return isOneOf(word, {"葉", "叶"}); };
+  const bool namesLeaf = isLeafWord(f.phrase->words.front()) || isLeafWord(f.phrase->words.back());
+  if (namesLeaf && f.as("organ") == nullptr) enterLeaf(f.end);
+}
+
+}  // namespace axil::keywords
