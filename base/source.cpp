@@ -19,12 +19,28 @@ std::string_view lineAt(std::string_view text, std::size_t start) {
   return line;
 }
 
+std::uint32_t codePointAt(std::string_view text, std::size_t at, std::size_t length) {
+  const auto first = static_cast<unsigned char>(text[at]);
+  std::uint32_t code = length == 1 ? first : first & (0xffu >> (length + 1));
+  for (std::size_t i = 1; i < length && at + i < text.size(); ++i) code = (code << 6u) | (static_cast<unsigned char>(text[at + i]) & 0x3fu);
+  return code;
+}
+
+/// Whether a terminal gives a character two cells: the East Asian wide and full-width blocks, and pictures.
+bool isWide(std::uint32_t code) {
+  static constexpr struct {
+    std::uint32_t first, last;
+  } kBlocks[] = {{0x1100, 0x115f}, {0x2e80, 0x303e}, {0x3041, 0x33ff}, {0x3400, 0x4dbf}, {0x4e00, 0x9fff}, {0xa000, 0xa4cf}, {0xac00, 0xd7a3},
+                 {0xf900, 0xfaff}, {0xfe30, 0xfe4f}, {0xff00, 0xff60}, {0xffe0, 0xffe6}, {0x1f300, 0x1faff}, {0x20000, 0x3fffd}};
+  return std::any_of(std::begin(kBlocks), std::end(kBlocks), [&](const auto& block) { return block.first <= code && code <= block.last; });
+}
+
 // East Asian wide characters take two cells of a terminal; the caret line must too.
 std::string blankLike(std::string_view text) {
   std::string blank;
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = utf8Length(text[i]);
-    blank += text[i] == '\t' ? "\t" : (length >= 3 ? "  " : " ");
+    blank += text[i] == '\t' ? "\t" : isWide(codePointAt(text, i, length)) ? "  " : " ";
     i += length;
   }
   return blank;

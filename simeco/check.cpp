@@ -8,7 +8,9 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "base/angle.hpp"
 #include "base/text.hpp"
+#include "simeco/check_runaway.hpp"
 #include "simeco/language.hpp"
 #include "simeco/lsystem_language.hpp"
 #include "simeco/report.hpp"
@@ -159,7 +161,7 @@ class Checker {
   void attributes(const std::vector<Attribute>& list, Place place) {
     std::unordered_set<std::string_view> names;
     for (const Attribute& a : list) {
-      if (!names.insert(a.name).second) report_.error(a.where, "'" + a.name + "' is given a second time in this block", "keep one of them");
+      if (!names.insert(a.name).second && a.name != "Obstacle") report_.error(a.where, "'" + a.name + "' is given a second time in this block", "keep one of them");
       attribute(a, place);
     }
   }
@@ -206,6 +208,9 @@ class Checker {
         return wantsCall("vector", "a vector(x, y, z)");
       case ValueKind::Colour:
         return wantsCall("RGBA", "a colour RGBA(red, green, blue, alpha)");
+      case ValueKind::Body:
+        if (!call || (call->function != "sphere" && call->function != "box")) wants("a sphere(x, y, z, radius) or a box(x, y, z, x, y, z)");
+        return;
       case ValueKind::Material:
         return wantsCall("MTRL", "a material MTRL(...) of six numbers");
       case ValueKind::Number:
@@ -217,7 +222,7 @@ class Checker {
   void number(const Attribute& a, ValueKind kind) {
     const Expr& expr = grammar_.at(a.value);
     const auto* call = std::get_if<Call>(&expr.node);
-    const bool isThing = call && (call->function == "vector" || call->function == "RGBA" || call->function == "MTRL");
+    const bool isThing = call && (call->function == "vector" || call->function == "RGBA" || call->function == "MTRL" || call->function == "sphere" || call->function == "box");
     if (isThing || std::holds_alternative<Text>(expr.node)) return report_.error(expr.where, "'" + a.name + "' is a number");
     const auto known = Folder(grammar_, {}, 0).at(a.value);
     if (!known) return;
@@ -372,6 +377,7 @@ class Checker {
     if (rules.homomorphism) productions(rules.homomorphism->productions);
     productions(rules.interaction);
     neverFired(rules.productions);
+    warnAboutRunaway(grammar_, rules, report_);
   }
   void settings(const RuleSet& rules) {
     const SourceSpan where = rules.axiom.empty() ? SourceSpan{} : rules.axiom.front().where;
@@ -476,6 +482,7 @@ class Checker {
       letter(m);
       for (const ExprId argument : m.arguments) expression(argument, names);
       stageOf(m);
+      turnOf(m);
     }
     brackets(list);
   }
@@ -544,6 +551,14 @@ class Checker {
     report_.error(m.where, "'" + printModule(grammar_, m) + "' has " + std::to_string(m.arguments.size() - 1) + " further arguments, but its Stage names " +
                                std::to_string(named->second),
                   "write them behind the number, as in " + m.letter + "(1, 0.2)");
+  }
+  /// More than a full turn is mostly an angle in degrees.
+  void turnOf(const Module& m) {
+    const Number* angle = (m.letter == "rotr" || m.letter == "rotu") && m.arguments.size() == 1 ? numberIn(grammar_, m.arguments[0]) : nullptr;
+    constexpr double kFullTurn = 6.2832;
+    if (!angle || std::abs(angle->value) <= kFullTurn) return;
+    const double radians = Angle::fromDegrees(angle->value).radians();
+    report_.warning(m.where, m.letter + " turns by radians, and " + textOf(*angle) + " is more than a full turn", textOf(*angle) + " degrees are " + fixed(radians, 6));
   }
   static std::string stageHint(const std::set<double>& numbers) {
     return "its stages go from " + shortest(*numbers.begin()) + " to " + shortest(*numbers.rbegin());

@@ -118,6 +118,15 @@ void Machine::hostExchange(std::span<double> variables) {
   if (!done && !trouble_) trouble_ = done.error();
 }
 
+void Machine::hostFile(const Instruction& instruction, std::span<double> values) {
+  const auto& files = shared_->host->files;
+  const auto call = static_cast<FileCall>(instruction.value);
+  if (call == FileCall::Open) values[0] = 0;
+  const auto result = files ? files(call, shared_->program->texts[static_cast<std::size_t>(instruction.index)], values) : Result<double>(0);
+  if (!result) return giveUp(result.error().code, result.error().message);
+  values[0] = *result;
+}
+
 void Machine::hostPrint(const std::string& format, std::span<const double> values) {
   if (shared_->host->print) shared_->host->print(formatted(format, values));
 }
@@ -189,6 +198,11 @@ double Machine::run(const Code& code, double* locals) {
         top -= x.count;
         hostPrint(shared_->program->texts[static_cast<std::size_t>(x.index)], {top, x.count});
         *top++ = 0;
+        break;
+      case Op::HostFile:
+        top -= x.count;
+        hostFile(x, {top, x.count == 0 ? std::size_t{1} : x.count});
+        top += std::max<std::size_t>(x.count, 1);
         break;
       case Op::StoreLocal: locals[x.index] = *--top; break;
       case Op::StoreGlobal: instance_->globals[static_cast<std::size_t>(x.index)] = *--top; break;

@@ -82,6 +82,7 @@ class Machine {
   double called(const Instruction& instruction, const double* arguments);
   double hostFunction(std::span<const double> arguments);
   void hostExchange(std::span<double> variables);
+  void hostFile(const Instruction& instruction, std::span<double> values);
   void hostPrint(const std::string& format, std::span<const double> values);
   bool mayLoop(std::int64_t& loops);
 

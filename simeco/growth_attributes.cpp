@@ -242,7 +242,28 @@ Result<StageRules> readStage(const StageView& view, std::vector<OrganStyle>& sty
   return rules;
 }
 
+Result<Obstacle> obstacleOf(const Grammar& grammar, const Attribute& attribute) {
+  const auto* call = std::get_if<Call>(&grammar.at(attribute.value).node);
+  const bool box = call != nullptr && call->function == "box";
+  const auto numbers = numbersOf(grammar, attribute, box ? "box" : "sphere", box ? 6 : 4);
+  if (!numbers) return numbers.failure();
+  const std::vector<double>& n = *numbers;
+  if (box) return Obstacle{BoxObstacle{{{n[0], n[1], n[2]}}, {{n[3], n[4], n[5]}}}};
+  return Obstacle{SphereObstacle{{{n[0], n[1], n[2]}}, n[3]}};
+}
+
 }  // namespace
+
+Result<std::vector<Obstacle>> obstaclesIn(const Grammar& grammar) {
+  std::vector<Obstacle> obstacles;
+  for (const Attribute& attribute : grammar.attributes) {
+    if (attribute.name != "Obstacle") continue;
+    auto obstacle = obstacleOf(grammar, attribute);
+    if (!obstacle) return obstacle.failure();
+    obstacles.push_back(*std::move(obstacle));
+  }
+  return obstacles;
+}
 
 Result<StageTable> readStages(const Grammar& grammar, const PlantGrammar& plant, std::vector<OrganStyle>& styles) {
   StageTable table;

@@ -43,10 +43,13 @@ struct Scene {
   std::shared_ptr<const ObstacleField> obstacles;  ///< null: none
 };
 
+/// What the ecosystem's own `Obstacle = sphere(...)` and `Obstacle = box(...)` say, for all its plants.
+[[nodiscard]] Result<std::vector<Obstacle>> obstaclesIn(const Grammar& grammar);
+
 /// The plant's surroundings through time: what the host says, else the plant, else the ecosystem.
 [[nodiscard]] Result<std::vector<Surroundings>> surroundingsOf(const Grammar& grammar, const PlantGrammar& plant, std::span<const Scene> scenes);
 
-/// The sizes and habits of new organs; drawn ones depend on (seed, step, module) alone.
+/// The sizes and habits of new organs; drawn ones depend on (seed, step, who the module is) alone.
 class Draws {
  public:
   Draws(std::uint64_t seed, const Limits& limits, const Watch& watch) : random_(Rng(seed).split(sizeStream)), limits_(limits), watch_(watch) {}

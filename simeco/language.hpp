@@ -28,6 +28,9 @@ struct Parsed {
 /// names nobody bound, division by a literal zero, 1.1 features in a 1.0 file; warnings for rules that can never fire.
 [[nodiscard]] std::vector<Diagnostic> check(const Grammar& grammar);
 
+/// Adds what `check` finds to what parsing found, in text order: not what a broken rule only says once more.
+void addChecked(Parsed& parsed);
+
 /// The grammar's text, in the thesis' own layout; `parse(print(g)) == g`, and printing what was printed changes no byte.
 [[nodiscard]] std::string print(const Grammar& grammar);
 /// One expression or module, for messages.
@@ -40,6 +43,10 @@ struct GrammarFile {
   std::string text;
   Parsed parsed;  ///< diagnostics of both parsing and checking, in text order
 };
+
+/// The text in the bytes of a grammar file: UTF-8, UTF-16, Big5; in the classic language, whose old files often have Latin-1
+/// comments, those as well. Fails with Unreadable when it is no text.
+[[nodiscard]] Result<std::string> decodeGrammarText(std::string_view bytes, Language language);
 
 /// Reads a `.simeco` file (or a `.l` file, in the classic language). Fails when there is no readable text; errors in the
 /// text are in `parsed`, not a failure.

@@ -1,4 +1,5 @@
 #include "base/overloaded.hpp"
+#include "simeco/check_runaway.hpp"
 #include "simeco/lsystem_language.hpp"
 #include "simeco/lsystem_reader.hpp"
 #include "simeco/report.hpp"
@@ -33,11 +34,21 @@ Balance balanceOf(const std::vector<Module>& modules) {
   return result;
 }
 
+/// Names that an expression of calls gives a value to: fscanf's.
+void scanned(const Grammar& grammar, ExprId id, Names& names) {
+  const auto* call = std::get_if<Call>(&grammar.at(id).node);
+  if (call == nullptr || call->function != "fscanf") return;
+  for (const ExprId argument : call->arguments)
+    if (const Name* name = nameOf(grammar, argument)) names.insert(name->name);
+}
+
 /// Names that statements give a value to.
-void assigned(const Block& block, Names& names) {
+void assigned(const Grammar& grammar, const Block& block, Names& names) {
   for (const Statement& s : block)
-    std::visit(overloaded{[&](const Assign& a) { names.insert(a.name); }, [](const AssignElement&) {}, [](const Evaluate&) {},
-                          [&](const If& i) { assigned(i.yes, names), assigned(i.no, names); }, [&](const While& w) { assigned(w.body, names); }},
+    std::visit(overloaded{[&](const Assign& a) { names.insert(a.name), scanned(grammar, a.value, names); }, [](const AssignElement&) {},
+                          [&](const Evaluate& e) { scanned(grammar, e.value, names); },
+                          [&](const If& i) { assigned(grammar, i.yes, names), assigned(grammar, i.no, names); },
+                          [&](const While& w) { assigned(grammar, w.body, names); }},
                s.node);
 }
 
@@ -49,7 +60,9 @@ class Checker {
     for (const PlantGrammar& plant : grammar_.plants) {
       for (const RuleSet& rules : plant.subRules) labels_.insert(rules.label);
       labels_.insert(plant.rules.label);
+      gatherMade(plant);
       lsystem(plant.rules);
+      warnAboutRunaway(grammar_, plant.rules, report_);
       for (const RuleSet& rules : plant.subRules) lsystem(rules);
     }
     return report_.take();
@@ -77,7 +90,7 @@ class Checker {
   void readGlobals(const RuleSet& rules) {
     globals_.clear();
     arrays_.clear();
-    for (const Block* block : {&rules.start, &rules.startEach, &rules.endEach, &rules.end}) assigned(*block, globals_);
+    for (const Block* block : {&rules.start, &rules.startEach, &rules.endEach, &rules.end}) assigned(grammar_, *block, globals_);
     globals_.insert(rules.externals.begin(), rules.externals.end());
     for (const ArrayDeclaration& array : rules.arrays) arrays_[array.name] = &array;
   }
@@ -97,6 +110,41 @@ class Checker {
                       considers ? "list [ and ] in consider:" : "take [ and ] out of ignore:");
   }
 
+  // ---- what the rules make
+
+  void gatherMade(const PlantGrammar& plant) {
+    made_.clear();
+    gatherMade(plant.rules);
+    for (const RuleSet& rules : plant.subRules) gatherMade(rules);
+  }
+  void gatherMade(const RuleSet& rules) {
+    gatherMade(rules.axiom);
+    gatherMade(rules.productions);
+    if (rules.decomposition) gatherMade(rules.decomposition->productions);
+    if (rules.homomorphism) gatherMade(rules.homomorphism->productions);
+    gatherMade(rules.interaction);
+  }
+  void gatherMade(const std::vector<Production>& rules) {
+    for (const Production& rule : rules)
+      for (const Successor& successor : rule.successors) gatherMade(successor.modules);
+  }
+  void gatherMade(const std::vector<Module>& modules) {
+    for (const Module& m : modules) made_[m.letter].insert(m.arguments.size());
+  }
+  /// A rule for a letter that nothing makes, or not with so many parameters.
+  void neverMade(const Production& rule) {
+    for (const Module& m : rule.predecessor) {
+      const auto counts = made_.find(m.letter);
+      if (counts != made_.end() && counts->second.contains(m.arguments.size())) continue;
+      const std::string said = m.letter + (m.arguments.empty() ? "" : " with " + std::to_string(m.arguments.size()) + (m.arguments.size() == 1 ? " parameter" : " parameters"));
+      const bool others = counts != made_.end() && !counts->second.empty();
+      const std::size_t count = others ? *counts->second.begin() : 0;
+      report_.warning(rule.where, "this rule never fires: nothing makes " + said + (others && m.arguments.empty() ? " without parameters" : ""),
+                      others ? "there is " + m.letter + " with " + std::to_string(count) + (count == 1 ? " parameter" : " parameters") + "; letter and number of parameters must agree" : "");
+      return;
+    }
+  }
+
   // ---- rules
 
   void productions(const std::vector<Production>& all, const RuleSet& rules, bool stochastic) {
@@ -108,9 +156,10 @@ class Checker {
     formals_.clear();
     for (const auto* side : {&rule.left, &rule.predecessor, &rule.right}) bind(*side);
     locals_.clear();
-    assigned(rule.before, locals_);
-    assigned(rule.after, locals_);
+    assigned(grammar_, rule.before, locals_);
+    assigned(grammar_, rule.after, locals_);
     set_.clear();
+    neverMade(rule);
     context(rule.left, true);
     context(rule.right, false);
     statements(rule.before);
@@ -136,7 +185,7 @@ class Checker {
         const Name* formal = nameOf(grammar_, id);
         if (formal == nullptr) continue;
         if (!formals_.insert(formal->name).second)
-          report_.warning(grammar_.at(id).where, "parameter " + formal->name + " stands twice in this rule", "give each its own name and compare them in a condition");
+          report_.error(grammar_.at(id).where, "parameter " + formal->name + " stands twice in this rule", "give each its own name and compare them in a condition");
         if (arrays_.contains(formal->name)) report_.warning(grammar_.at(id).where, "parameter " + formal->name + " has the name of an array");
       }
   }
@@ -260,15 +309,27 @@ class Checker {
       for (const ExprId id : c.arguments)
         if (nameOf(grammar_, id) == nullptr) report_.error(grammar_.at(id).where, "com hands over variables, not values", "put the value into a variable first");
     if (c.function == "trunc") report_.warning(where, "trunc rounds here: trunc(1.6) is 2", "write floor(x) to cut off the decimals of a positive x");
-    static const Names kFiles{"fopen", "fclose", "fflush", "fprintf", "fscanf"};
-    if (kFiles.contains(c.function)) report_.error(where, c.function + " is refused: a grammar may not touch files", "use printf, or hand values in with func and com");
+    files(c, where);
     static const Names kContours{"curveX", "curveY", "curveZ", "curveGAL", "inblob"};
     if (kContours.contains(c.function)) report_.error(where, c.function + " needs the curves of a modelling session, which are not read here", "compute the value, or use func(id, x)");
+  }
+
+  /// A grammar reads files beside it and writes none.
+  void files(const Call& c, SourceSpan where) {
+    const auto textOf = [&](std::size_t i) { return i < c.arguments.size() ? std::get_if<Text>(&grammar_.at(c.arguments[i]).node) : nullptr; };
+    if (c.function == "fprintf") report_.warning(where, "fprintf writes nothing: a grammar may not write files", "use printf, which writes to standard error");
+    if (c.function == "fopen" && (textOf(0) == nullptr || textOf(1) == nullptr)) report_.error(where, "fopen takes two quoted texts", "write fopen(\"file\",\"r\")");
+    else if (c.function == "fopen" && !textOf(1)->text.starts_with('r')) report_.warning(where, "the file \"" + textOf(0)->text + "\" is not written: a grammar may only read files beside it", "what is printed into it is dropped");
+    if (c.function != "fscanf") return;
+    if (textOf(1) == nullptr) report_.error(where, "fscanf needs a quoted format behind the file", "write fscanf(f,\"%f\",&x)");
+    for (std::size_t i = 2; i < c.arguments.size(); ++i)
+      if (nameOf(grammar_, c.arguments[i]) == nullptr) report_.error(grammar_.at(c.arguments[i]).where, "fscanf reads into variables", "write &x");
   }
 
   const Grammar& grammar_;
   Report report_;
   Names labels_;
+  std::map<std::string, std::set<std::size_t>, std::less<>> made_;  ///< letters with their numbers of parameters
   Names globals_;
   Names formals_;
   Names locals_;

@@ -3,6 +3,8 @@
 #include "simeco/lsystem_reader.hpp"
 #include "simeco/report.hpp"
 
+#include "base/text.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -158,7 +160,8 @@ class LSystemParser : private LSystemReader {
     const std::size_t end = lineEnd(at_);
     limit_ = end;
     if (!sees("lsystem:")) {
-      errorHere("expected Lsystem: and a label, found " + found(), "a file starts with Lsystem: 1");
+      errorHere(atTextEnd() ? "the text has no L-system" : "expected Lsystem: and a label, found " + found(), "a file starts with Lsystem: 1");
+      ended_ = true;
       const bool goesOn = std::any_of(std::begin(kHeader), std::end(kHeader), [&](const HeaderRow& row) { return sees(row.words); });
       if (!goesOn) at_ = end;
       return wholeText();
@@ -181,7 +184,9 @@ class LSystemParser : private LSystemReader {
       const HeaderRow* row = headerRowHere();
       if (row == nullptr) {
         limit_ = lineEnd(at_);
-        errorHere(missingAxiom(), "write Axiom: and a string before the first rule");
+        const bool over = atTextEnd() || atSection() || looksLikeProduction();
+        if (!over || !ended_) errorHere(missingAxiom(), keywordHint(kHeader, "write Axiom: and a string before the first rule"));
+        ended_ = true;
         if (atSection() || looksLikeProduction()) return wholeText();
         if (atTextEnd()) return;
         nextLine(limit_);
@@ -203,6 +208,24 @@ class LSystemParser : private LSystemReader {
   [[nodiscard]] std::string missingAxiom() const {
     if (atEnd() && limit_ == text_.size()) return "the text ends before an Axiom:";
     return "expected a header item or Axiom:, found " + found();
+  }
+  /// The keyword that the line here was most likely meant to be, as a hint; else `otherwise`.
+  template <class Rows>
+  [[nodiscard]] std::string keywordHint(const Rows& rows, std::string otherwise) const {
+    std::string words;
+    for (std::size_t i = at_; i < limit_ && (isLetter(text_[i]) || isBlank(text_[i])); ++i)
+      if (!isBlank(text_[i])) words += lower(text_[i]);
+    std::string best;
+    std::size_t fewest = words.size() / 4 + 1;
+    for (const auto& row : rows) {
+      std::string known;
+      for (const char c : row.words)
+        if (c != ' ' && c != ':') known += c;
+      if (row.words.ends_with(':') && words.starts_with(known)) return "the colon is missing: write " + std::string(row.words);
+      const std::size_t edits = editDistance(std::string_view(words).substr(0, known.size() + 2), known);
+      if (edits < fewest) fewest = edits, best = row.words;
+    }
+    return best.empty() ? otherwise : "did you mean " + best + "?";
   }
   [[nodiscard]] bool atSection() const {
     return std::any_of(std::begin(kSections), std::end(kSections), [&](const SectionRow& row) { return sees(row.words); });
@@ -394,7 +417,7 @@ class LSystemParser : private LSystemReader {
     while (true) {
       skipLines();
       if (atTextEnd()) {
-        if (classicEnd_) errorHere("the text ends without endlsystem", "add a line endlsystem");
+        if (classicEnd_ && !ended_) errorHere("the text ends without endlsystem", "add a line endlsystem");
         return;
       }
       const std::size_t begin = at_;
@@ -551,7 +574,14 @@ class LSystemParser : private LSystemReader {
     if (shortArrow_ != 0 && shortArrow_ > begin) return error(shortArrow_, shortArrow_ + 2, "an arrow is written -->");
     const bool indented = begin > 0 && isBlank(text_[begin - 1]) && (begin < 2 || text_[begin - 2] != '\n' || text_[begin - 1] != '\t');
     const std::string hint = indented ? "a line that continues the one before must start with a tab" : "a rule is written predecessor --> successor";
-    if (atEnd()) error(begin, std::max(at, begin + 1), "this line is neither a rule nor a keyword: there is no -->", hint);
+    if (atEnd()) {
+      const std::size_t end = std::exchange(at_, begin);
+      const std::string meant = keywordHint(kSections, hint);
+      at_ = end;
+      return error(begin, std::max(at, begin + 1), "this line is neither a rule nor a keyword: there is no -->", meant);
+    }
+    if (peek() == '=') errorHere("a single = gives a value, it does not compare", "write ==");
+    else if (peek() == '<' || peek() == '>') errorHere("a rule has one left context and one right context", "left < predecessor > right --> successor");
     else errorHere("expected -->, found " + found(), hint);
   }
 
@@ -599,6 +629,7 @@ class LSystemParser : private LSystemReader {
   }
 
   std::size_t comment_ = 0;
+  bool ended_ = false;           ///< that the text is no whole L-system was said
   std::size_t shortArrow_ = 0;
   Section section_ = Section::Productions;
   bool classicEnd_ = true;       ///< false in RTIL files, which the end of the text closes

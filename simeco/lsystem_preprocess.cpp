@@ -1,395 +1,23 @@
 #include "simeco/lsystem_preprocess.hpp"
 
+#include "simeco/lsystem_clean.hpp"
+#include "simeco/lsystem_macros.hpp"
+#include "simeco/lsystem_scan.hpp"
+
 #include "base/text.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
 namespace axil::simeco {
 
+using namespace preprocess;
+
 namespace {
 
 constexpr int kIncludeDepth = 16;
-constexpr int kMacroDepth = 64;
-constexpr int kConditionDepth = 64;
-
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-bool isNameStart(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool isNamePart(char c) { return isNameStart(c) || isDigit(c); }
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
-
-SourceSpan spanOf(std::size_t begin, std::size_t end) {
-  return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(std::max(begin, end))};
-}
-
-std::size_t skipBlanks(std::string_view text, std::size_t at) {
-  while (at < text.size() && isBlank(text[at])) ++at;
-  return at;
-}
-
-std::string_view trimmed(std::string_view text) {
-  std::size_t begin = skipBlanks(text, 0);
-  std::size_t end = text.size();
-  while (end > begin && isBlank(text[end - 1])) --end;
-  return text.substr(begin, end - begin);
-}
-
-std::string_view nameAt(std::string_view text, std::size_t at) {
-  std::size_t end = at;
-  if (end < text.size() && isNameStart(text[end]))
-    while (end < text.size() && isNamePart(text[end])) ++end;
-  return text.substr(at, end - at);
-}
-
-/// End of the quoted text that starts at `at`, or nothing if it is not closed on its line (then it is a letter).
-std::optional<std::size_t> quotedEnd(std::string_view text, std::size_t at) {
-  for (std::size_t i = at + 1; i < text.size() && text[i] != '\n'; ++i) {
-    if (text[i] == '\\' && i + 1 < text.size() && text[i + 1] != '\n') ++i;
-    else if (text[i] == '"') return i + 1;
-  }
-  return std::nullopt;
-}
-
-/// End of the C number that starts at `at`: it swallows letters and signed exponents, so no macro is seen inside.
-std::size_t numberEnd(std::string_view text, std::size_t at) {
-  std::size_t i = at;
-  while (i < text.size() && (isNamePart(text[i]) || text[i] == '.')) {
-    const bool exponent = text[i] == 'e' || text[i] == 'E';
-    ++i;
-    if (exponent && i + 1 < text.size() && (text[i] == '+' || text[i] == '-') && isDigit(text[i + 1])) ++i;
-  }
-  return i;
-}
-
-/// A text without comments, joined lines and carriage returns, and where its bytes came from.
-struct Clean {
-  std::string text;
-  std::vector<std::pair<std::size_t, std::size_t>> moves;  ///< from byte `first` on, byte b came from b - first + second
-  std::vector<PlacedComment> comments;
-  std::optional<SourceSpan> openComment;
-
-  [[nodiscard]] std::size_t originOf(std::size_t at) const {
-    auto after = std::upper_bound(moves.begin(), moves.end(), std::pair{at, static_cast<std::size_t>(-1)});
-    if (after == moves.begin()) return at;
-    --after;
-    return at - after->first + after->second;
-  }
-};
-
-class Cleaner {
- public:
-  explicit Cleaner(std::string_view text) : text_(text) { clean_.text.reserve(text.size()); }
-
-  Clean run() {
-    clean_.moves.emplace_back(0, 0);
-    while (at_ < text_.size()) step();
-    return std::move(clean_);
-  }
-
- private:
-  void step() {
-    const char c = text_[at_];
-    const char next = at_ + 1 < text_.size() ? text_[at_ + 1] : '\0';
-    if (c == '\r' && (next == '\n' || at_ + 1 == text_.size())) return skip(1);
-    if (c == '\\' && (next == '\n' || (next == '\r' && at_ + 2 < text_.size() && text_[at_ + 2] == '\n'))) return skip(next == '\n' ? 2 : 3);
-    if (c == '/' && next == '*') return comment(text_.find("*/", at_ + 2), 2);
-    if (c == '/' && next == '/') return comment(std::min(text_.find('\n', at_), text_.size()), 0);
-    if (c == '"') {
-      if (const auto end = quotedEnd(text_, at_)) return copy(*end - at_);
-    }
-    if (c == '\n') ownLine_ = true;
-    else if (!isBlank(c)) ownLine_ = false;
-    copy(1);
-  }
-
-  void copy(std::size_t count) {
-    clean_.text.append(text_.substr(at_, count));
-    at_ += count;
-  }
-
-  void skip(std::size_t count) {
-    at_ += count;
-    clean_.moves.emplace_back(clean_.text.size(), at_);
-  }
-
-  void comment(std::size_t end, std::size_t closing) {
-    const std::size_t begin = at_;
-    if (end == std::string_view::npos) {
-      clean_.openComment = spanOf(begin, begin + 2);
-      end = text_.size();
-      closing = 0;
-    }
-    std::string words(text_.substr(begin, end + closing - begin));
-    std::erase(words, '\r');
-    clean_.comments.push_back({clean_.text.size(), std::move(words), ownLine_});
-    if (closing != 0) clean_.text.push_back(' ');
-    at_ = end + closing;
-    clean_.moves.emplace_back(clean_.text.size(), at_);
-  }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-  bool ownLine_ = true;
-  Clean clean_;
-};
-
-struct Macro {
-  std::string body;
-  bool takesArguments = false;
-  std::vector<std::string> parameters;
-};
-
-using Macros = std::map<std::string, Macro, std::less<>>;
-
-/// The arguments of a macro use whose `(` stands at `open`, and where the text goes on.
-struct MacroArguments {
-  std::vector<std::string> values;
-  std::size_t end = 0;
-};
-
-std::optional<MacroArguments> argumentsAt(std::string_view text, std::size_t open) {
-  MacroArguments found;
-  std::string value;
-  int depth = 0;
-  for (std::size_t i = open; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '(' && depth++ == 0) continue;
-    if (c == ')' && --depth == 0) {
-      found.values.emplace_back(trimmed(value));
-      found.end = i + 1;
-      return found;
-    }
-    if (c == ',' && depth == 1) {
-      found.values.emplace_back(trimmed(value));
-      value.clear();
-    } else {
-      value.push_back(c == '\n' ? ' ' : c);
-    }
-  }
-  return std::nullopt;
-}
-
-/// Replaces macros in a text that has no places any more: a macro's body or argument.
-class Expander {
- public:
-  Expander(const Macros& macros, std::size_t limit) : macros_(macros), limit_(limit) {}
-
-  std::string expand(std::string_view text) {
-    if (++depth_ > kMacroDepth) {
-      problem_ = "macros are nested more than " + std::to_string(kMacroDepth) + " deep here";
-      --depth_;
-      return {};
-    }
-    std::string out;
-    for (std::size_t i = 0; i < text.size() && problem_.empty();) i = token(text, i, out);
-    --depth_;
-    return out;
-  }
-
-  /// What the use of macro `name` stands for, with `arguments` as written.
-  std::string use(const std::string& name, const Macro& macro, const std::vector<std::string>& arguments) {
-    if (!macro.takesArguments) return body(name, macro.body);
-    if (!argumentsFit(name, macro, arguments)) return {};
-    std::map<std::string, std::string, std::less<>> values;
-    for (std::size_t i = 0; i < macro.parameters.size(); ++i) values[macro.parameters[i]] = expand(arguments[i]);
-    return body(name, withArguments(macro.body, values));
-  }
-
-  [[nodiscard]] const std::string& problem() const { return problem_; }
-
- private:
-  std::size_t token(std::string_view text, std::size_t at, std::string& out) {
-    const char c = text[at];
-    if (c == '"')
-      if (const auto end = quotedEnd(text, at)) return keep(text, at, *end, out);
-    if (isDigit(c) || (c == '.' && at + 1 < text.size() && isDigit(text[at + 1]))) return keep(text, at, numberEnd(text, at), out);
-    if (!isNameStart(c)) return keep(text, at, at + 1, out);
-    const std::string name(nameAt(text, at));
-    const std::size_t after = at + name.size();
-    const auto macro = macros_.find(name);
-    if (macro == macros_.end() || active_.contains(name)) return keep(text, at, after, out);
-    if (!macro->second.takesArguments) {
-      add(out, use(name, macro->second, {}));
-      return after;
-    }
-    const std::size_t open = skipBlanks(text, after);
-    if (open >= text.size() || text[open] != '(') return keep(text, at, after, out);
-    const auto arguments = argumentsAt(text, open);
-    if (!arguments) {
-      problem_ = "the use of macro " + name + " is not closed";
-      return text.size();
-    }
-    add(out, use(name, macro->second, arguments->values));
-    return arguments->end;
-  }
-
-  std::size_t keep(std::string_view text, std::size_t begin, std::size_t end, std::string& out) {
-    out.append(text.substr(begin, end - begin));
-    return end;
-  }
-
-  void add(std::string& out, const std::string& more) {
-    // Blanks keep the replaced text from growing together with its neighbours.
-    out.append(" ").append(more).append(" ");
-    made_ += more.size() + 2;
-    if (made_ > limit_) problem_ = "macros make more than " + std::to_string(limit_) + " bytes of text";
-  }
-
-  std::string body(const std::string& name, std::string_view text) {
-    active_.insert(name);
-    std::string result = expand(text);
-    active_.erase(name);
-    return result;
-  }
-
-  bool argumentsFit(const std::string& name, const Macro& macro, const std::vector<std::string>& arguments) {
-    const bool none = macro.parameters.empty() && arguments.size() == 1 && arguments[0].empty();
-    if (none || arguments.size() == macro.parameters.size()) return true;
-    problem_ = "macro " + name + " takes " + std::to_string(macro.parameters.size()) + " arguments, not " + std::to_string(arguments.size());
-    return false;
-  }
-
-  static std::string withArguments(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
-    std::string out;
-    for (std::size_t i = 0; i < text.size();) {
-      std::size_t end = i + 1;
-      if (isNameStart(text[i])) end = i + nameAt(text, i).size();
-      else if (isDigit(text[i])) end = numberEnd(text, i);
-      const std::string_view word = text.substr(i, end - i);
-      const auto value = values.find(word);
-      out.append(value == values.end() ? word : std::string_view(value->second));
-      i = end;
-    }
-    return out;
-  }
-
-  const Macros& macros_;
-  std::size_t limit_;
-  std::size_t made_ = 0;
-  int depth_ = 0;
-  std::set<std::string, std::less<>> active_;
-  std::string problem_;
-};
-
-/// The value of an `#if` line: whole numbers, C's operators, names that are no macros count as 0.
-class ConditionReader {
- public:
-  explicit ConditionReader(std::string_view text) : text_(text) {}
-
-  std::optional<std::int64_t> value() {
-    const std::int64_t result = choice();
-    skip();
-    if (at_ != text_.size()) bad_ = true;
-    return bad_ ? std::nullopt : std::optional(result);
-  }
-
- private:
-  struct Operator {
-    std::string_view text;
-    int level;
-  };
-
-  void skip() { at_ = skipBlanks(text_, at_); }
-  bool eat(std::string_view token) {
-    skip();
-    if (!text_.substr(at_).starts_with(token)) return false;
-    at_ += token.size();
-    return true;
-  }
-
-  std::int64_t choice() {
-    const std::int64_t condition = binary(0);
-    if (!eat("?")) return condition;
-    const std::int64_t yes = choice();
-    if (!eat(":")) bad_ = true;
-    const std::int64_t no = choice();
-    return condition != 0 ? yes : no;
-  }
-
-  std::optional<Operator> operatorAbove(int level) {
-    static constexpr Operator kOperators[] = {{"||", 0}, {"&&", 1}, {"==", 2}, {"!=", 2}, {"<=", 3}, {">=", 3}, {"<", 3},
-                                              {">", 3},  {"+", 4},  {"-", 4},  {"*", 5},  {"/", 5},  {"%", 5}};
-    skip();
-    for (const Operator& op : kOperators)
-      if (text_.substr(at_).starts_with(op.text)) return op.level >= level ? std::optional(op) : std::nullopt;
-    return std::nullopt;
-  }
-
-  std::int64_t binary(int level) {
-    std::int64_t left = unary();
-    while (!bad_) {
-      const auto op = operatorAbove(level);
-      if (!op) break;
-      at_ += op->text.size();
-      left = applied(op->text, left, binary(op->level + 1));
-    }
-    return left;
-  }
-
-  std::int64_t applied(std::string_view op, std::int64_t a, std::int64_t b) {
-    const auto ua = static_cast<std::uint64_t>(a);
-    const auto ub = static_cast<std::uint64_t>(b);
-    if (op == "||") return a != 0 || b != 0;
-    if (op == "&&") return a != 0 && b != 0;
-    if (op == "==") return a == b;
-    if (op == "!=") return a != b;
-    if (op == "<=") return a <= b;
-    if (op == ">=") return a >= b;
-    if (op == "<") return a < b;
-    if (op == ">") return a > b;
-    if (op == "+") return static_cast<std::int64_t>(ua + ub);
-    if (op == "-") return static_cast<std::int64_t>(ua - ub);
-    if (op == "*") return static_cast<std::int64_t>(ua * ub);
-    if (b == 0 || (b == -1)) {
-      if (b == 0) bad_ = true;
-      return op == "%" ? 0 : static_cast<std::int64_t>(0 - ua);
-    }
-    return op == "/" ? a / b : a % b;
-  }
-
-  std::int64_t unary() {
-    if (++depth_ > kConditionDepth) {
-      bad_ = true;
-      return 0;
-    }
-    std::int64_t result = 0;
-    if (eat("!")) result = unary() == 0;
-    else if (eat("-")) result = static_cast<std::int64_t>(0 - static_cast<std::uint64_t>(unary()));
-    else if (eat("+")) result = unary();
-    else result = primary();
-    --depth_;
-    return result;
-  }
-
-  std::int64_t primary() {
-    if (eat("(")) {
-      const std::int64_t inner = choice();
-      if (!eat(")")) bad_ = true;
-      return inner;
-    }
-    skip();
-    if (const std::string_view name = nameAt(text_, at_); !name.empty()) {
-      at_ += name.size();
-      return 0;
-    }
-    if (at_ >= text_.size() || !isDigit(text_[at_])) {
-      bad_ = true;
-      return 0;
-    }
-    std::uint64_t number = 0;
-    while (at_ < text_.size() && isDigit(text_[at_])) number = number * 10 + static_cast<std::uint64_t>(text_[at_++] - '0');
-    if (at_ < text_.size() && (isNamePart(text_[at_]) || text_[at_] == '.')) bad_ = true;
-    return static_cast<std::int64_t>(number);
-  }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-  int depth_ = 0;
-  bool bad_ = false;
-};
 
 }  // namespace
 
@@ -451,7 +79,7 @@ class Preprocessor {
 
   void process(std::string_view text, std::int32_t file) {
     const std::int32_t outerFile = std::exchange(file_, file);
-    const Clean clean = Cleaner(text).run();
+    const Clean clean = cleaned(text);
     const std::size_t outerBranches = branches_.size();
     std::size_t comment = 0;
     for (std::size_t at = 0; at < clean.text.size() && !full_;) at = line(clean, at, comment);
@@ -533,9 +161,9 @@ class Preprocessor {
       end = found->end;
     }
     const SourceSpan where = spanOf(clean.originOf(at), clean.originOf(end));
-    Expander expander(macros_, limit_);
-    const std::string made = " " + expander.use(name, macro, arguments) + " ";
-    if (!expander.problem().empty()) error(where, expander.problem(), {});
+    const Expanded used = usedMacro(macros_, limit_, name, macro, arguments);
+    const std::string made = " " + used.text + " ";
+    if (!used.problem.empty()) error(where, used.problem, {});
     if (result_.text.size() + made.size() > limit_) {
       error(where, "macros and includes make more than " + std::to_string(options_.macroTextLimit) + " bytes of text", {});
       full_ = true;
@@ -629,9 +257,8 @@ class Preprocessor {
   }
 
   bool conditionOf(std::string_view text, SourceSpan where) {
-    Expander expander(macros_, limit_);
-    const std::string expanded = expander.expand(withDefinedReplaced(text));
-    const auto value = expander.problem().empty() ? ConditionReader(expanded).value() : std::nullopt;
+    const Expanded condition = expanded(macros_, limit_, withDefinedReplaced(text));
+    const auto value = condition.problem.empty() ? conditionValue(condition.text) : std::nullopt;
     if (!value) error(where, "this #if is not a whole-number condition", {});
     return value.value_or(0) != 0;
   }

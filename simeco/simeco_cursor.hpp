@@ -122,9 +122,9 @@ class Cursor {
   void missing(TokenKind kind, std::string_view where, std::string_view subject) {
     slip(gap(), "missing '" + std::string(signOf(kind)) + "' " + placeWords(where, subject));
   }
-  bool expect(TokenKind kind, std::string_view where, std::string_view subject = {}) {
+  bool expect(TokenKind kind, std::string_view where, std::string_view subject = {}, std::string_view hint = {}) {
     if (take(kind)) return true;
-    error(gap(), "'" + std::string(signOf(kind)) + "' is expected " + placeWords(where, subject) + ", but here " + seen());
+    error(gap(), "'" + std::string(signOf(kind)) + "' is expected " + placeWords(where, subject) + ", but here " + seen(), std::string(hint));
     return false;
   }
   void endItem(const char* what) {

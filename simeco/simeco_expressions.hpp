@@ -197,7 +197,7 @@ class ExpressionParser : protected Cursor {
     }
     if (take(TokenKind::LeftParen)) {
       const ExprId inner = expression();
-      expect(TokenKind::RightParen, "after the expression");
+      expect(TokenKind::RightParen, "after the expression", {}, is(TokenKind::Comma) ? "a place or direction is written vector(x, y, z)" : "");
       return lastParenthesised_ = inner;
     }
     error(gap(), "a value is expected, but here " + seen());

@@ -196,7 +196,7 @@ class RuleParser : protected ExpressionParser {
     hoisted_.reset();
     sides(production);
     if (is(TokenKind::Colon)) conditions(production);
-    if (expect(TokenKind::Arrow, "between a rule's two sides")) successors(production);
+    if (expect(TokenKind::Arrow, "between a rule's two sides", {}, arrowHint())) successors(production);
     placeCondition(production);
     if (production.successors.empty()) production.successors.emplace_back();
     endItem("rule");
@@ -216,6 +216,12 @@ class RuleParser : protected ExpressionParser {
       production.right = modules(Role::Predecessor);
       if (production.right.empty()) error(gap(), "the right context after '>' is missing");
     }
+  }
+  /// What is often written instead of an arrow, or of a comparison in front of it.
+  [[nodiscard]] std::string_view arrowHint() {
+    if (is(TokenKind::Minus)) return "the arrow is ->";
+    if (is(TokenKind::Assign)) return peek().kind == TokenKind::Greater ? "the arrow is ->" : "to compare, write ==";
+    return {};
   }
   /// `: {before} condition {after}`
   void conditions(Production& production) {

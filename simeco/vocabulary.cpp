@@ -21,6 +21,7 @@ constexpr AttributeWord kAttributes[] = {
     {"Light", InEcosystem | InPlant, ValueKind::Vector, true, {}},
     {"Gravity", InEcosystem | InPlant, ValueKind::Vector, true, {}},
     {"Wind", InEcosystem | InPlant, ValueKind::Vector, true, {}},
+    {"Obstacle", InEcosystem, ValueKind::Body, true, {}},
     // A plant.
     {"Position", InPlant, ValueKind::Vector, false, {}},
     {"Direction", InPlant, ValueKind::Vector, false, {}},
@@ -53,7 +54,7 @@ constexpr AttributeWord kAttributes[] = {
 };
 
 constexpr FunctionWord kFunctions[] = {
-    {"vector", 3, 3, false}, {"RGBA", 4, 4, false},  {"MTRL", 6, 6, false},  {"sin", 1, 1, true},   {"cos", 1, 1, true},
+    {"vector", 3, 3, false}, {"RGBA", 4, 4, false},  {"MTRL", 6, 6, false},  {"sphere", 4, 4, true},  {"box", 6, 6, true},  {"sin", 1, 1, true},   {"cos", 1, 1, true},
     {"tan", 1, 1, true},     {"asin", 1, 1, true},   {"acos", 1, 1, true},   {"atan", 1, 1, true},  {"atan2", 2, 2, true},
     {"exp", 1, 1, true},     {"log", 1, 1, true},    {"sqrt", 1, 1, true},   {"abs", 1, 1, true},   {"floor", 1, 1, true},
     {"ceil", 1, 1, true},    {"round", 1, 1, true},  {"min", 2, 2, true},    {"max", 2, 2, true},   {"pow", 2, 2, true},

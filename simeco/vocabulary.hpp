@@ -23,6 +23,7 @@ enum class ValueKind : std::uint8_t {
   Vector,       ///< vector(x, y, z)
   Colour,       ///< RGBA(r, g, b, a)
   Material,     ///< MTRL(...), six numbers
+  Body,         ///< sphere(x, y, z, radius) or box(x, y, z, x, y, z); may be given again
 };
 
 struct AttributeWord {

@@ -243,7 +243,7 @@ class Maker {
   }
   OrganBlock organ() {
     OrganBlock made{static_cast<OrganKind>(rng_.below(6)), attributes(), {}, blockComments(), {}};
-    for (int i = upTo(2); i > 0; --i) made.stages.push_back({upTo(100), attributes(), blockComments(), {}});
+    for (int i = upTo(2); i > 0; --i) made.stages.push_back({upTo(100), chance(0.25) ? std::vector<std::string>{"width", "late"} : std::vector<std::string>{}, attributes(), blockComments(), {}});
     return made;
   }
   PlantGrammar plant() {

@@ -43,7 +43,9 @@ TEST(LSystemDerivation, EachCaseDerivesTheStringThatItAnnounces) {
     if (at == std::string::npos) continue;
     std::string expected = text.substr(at + mark.size(), text.find('\n', at) - at - mark.size());
     std::erase(expected, '\r');
-    const auto derived = deriveLSystem(grammarOf(path));
+    DeriveLSystemOptions options;
+    options.derive.host.files = filesBeside(path);
+    const auto derived = deriveLSystem(grammarOf(path), options);
     ASSERT_TRUE(derived) << path.filename() << ": " << derived.error().message;
     EXPECT_EQ(toLSystemText(derived->string), expected) << path.filename();
     ++strings;
