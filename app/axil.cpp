@@ -37,6 +37,7 @@ const Command kCommands[] = {
     {"quantify", "Measure every segment: length, level, kind, turning angles (prints stems.csv)", addQuantify, kMeasuring},
     {"emit", "Write the grammar of a measured plant", addEmit, kMeasuring},
     {"check", "Say what is wrong with a grammar, all of it at once", addCheck, kLight},
+    {"fmt", "Lay a grammar out: one layout, comments kept", addFmt, kLight},
     {"derive", "Derive a grammar's string", addDerive, kLight},
     {"grow", "Grow a grammar into a picture, an animation, a mesh or a skeleton file", addGrow, kDrawing},
     {"build", "Do it all: skeleton, measurements, grammars, pictures, mesh and a report", addBuild, kDrawing},

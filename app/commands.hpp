@@ -17,7 +17,7 @@ namespace axil::app {
 using AddCommand = void(CLI::App& sub, int& status);
 
 // Weak: a command that needs heavy libraries is linked only into the program that has them (docs/decisions/start.md).
-[[gnu::weak]] AddCommand addKeywords, addSkeleton, addQuantify, addEmit, addCheck, addDerive, addGrow, addBuild, addCompletion;
+[[gnu::weak]] AddCommand addKeywords, addSkeleton, addQuantify, addEmit, addCheck, addFmt, addDerive, addGrow, addBuild, addCompletion;
 
 /// Does `call` when `sub` is called, after its options are read.
 void setCallback(CLI::App& sub, std::function<void()> call);
