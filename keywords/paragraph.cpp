@@ -6,6 +6,10 @@
 
 namespace axil::keywords {
 
+namespace {
+constexpr double sureShare = 0.9;  // of the words that are known, in what is a description throughout
+}
+
 const Concept& organNamed(std::string_view name) {
   const std::vector<Concept>& organs = categoryOf("organ").concepts;
   const auto found = std::find_if(organs.begin(), organs.end(), [&](const Concept& c) { return c.name == name; });
@@ -52,6 +56,7 @@ std::size_t ParagraphReader::step(std::size_t i) {
 ParagraphResult ParagraphReader::read() {
   for (std::size_t i = 0; i < tokens_.size();) i = std::max(step(i), i + 1);
   if (!isAboutAPlant()) return {};
+  unsure_ = knownShare() < sureShare;
   findUnknown();
   return std::move(result_);
 }

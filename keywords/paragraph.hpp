@@ -51,6 +51,8 @@ class ParagraphReader {
 
   /// All that the paragraph says; nothing when it is not about a plant.
   ParagraphResult read();
+  /// After read(): much of the paragraph is not vocabulary, so that single characters may be parts of other words.
+  [[nodiscard]] bool isUnsure() const { return unsure_; }
   [[nodiscard]] const Concept* organ() const { return scope_.organ; }
 
  private:
@@ -158,6 +160,7 @@ class ParagraphReader {
   std::map<const Concept*, std::size_t> namedAt_;      // where each organ was named last
   std::vector<std::pair<std::size_t, std::string>> organFrom_;  // which organ was spoken of from which token on, for unknown words
   double evidence_ = 0;
+  bool unsure_ = false;
   bool organSeen_ = false;   // an organ that only plants have
   bool bodySeen_ = false;    // a stem, a branch
   bool strongSeen_ = false;  // a word that only botany uses

@@ -42,6 +42,21 @@ void append(std::vector<T>& to, std::vector<T>& from) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
+struct ReadBlock {
+  ParagraphResult result;
+  const Concept* organ = nullptr;
+};
+
+ReadBlock readBlock(std::string_view piece, std::uint32_t firstByte, TokenList& list, const Concept* organBefore) {
+  ParagraphReader reader(piece, firstByte, list, organBefore);
+  ParagraphResult result = reader.read();
+  if (!reader.isUnsure() || !list.anyHan) return {std::move(result), reader.organ()};
+  markWords(piece, firstByte, list);
+  ParagraphReader again(piece, firstByte, list, organBefore);
+  result = again.read();
+  return {std::move(result), again.organ()};
+}
+
 Reading readUtf8(std::string_view text) {
   Reading reading;
   std::vector<Denial> denials;
@@ -53,12 +68,11 @@ Reading readUtf8(std::string_view text) {
     const std::string_view piece = text.substr(begin, block.end - begin);
     tokenize(piece, static_cast<std::uint32_t>(begin), character, list);
     repairTokens(list);
-    ParagraphReader reader(piece, static_cast<std::uint32_t>(begin), list, organ);
-    ParagraphResult result = reader.read();
-    append(reading.traits, result.traits);
-    append(denials, result.denials);
-    append(reading.unknown, result.unknown);
-    organ = block.endsParagraph ? nullptr : reader.organ();
+    ReadBlock read = readBlock(piece, static_cast<std::uint32_t>(begin), list, organ);
+    append(reading.traits, read.result.traits);
+    append(denials, read.result.denials);
+    append(reading.unknown, read.result.unknown);
+    organ = block.endsParagraph ? nullptr : read.organ;
     character += countCharacters(piece);
     begin = block.end;
   }

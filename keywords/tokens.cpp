@@ -174,7 +174,7 @@ struct CloseText {
 };
 
 // Chinese has no blanks between words; Unicode's word breaks know a dictionary. A character in a longer word is marked.
-void markWords(std::string_view text, std::uint32_t firstByte, std::vector<Token>& tokens) {
+void markLongWords(std::string_view text, std::uint32_t firstByte, std::vector<Token>& tokens) {
   UErrorCode status = U_ZERO_ERROR;
   const std::unique_ptr<UText, CloseText> view(utext_openUTF8(nullptr, text.data(), static_cast<std::int64_t>(text.size()), &status));
   static thread_local const std::unique_ptr<UBreakIterator, CloseBreaks> breaks(ubrk_open(UBRK_WORD, "zh", nullptr, 0, &status));
@@ -226,7 +226,11 @@ void tokenize(std::string_view text, std::uint32_t firstByte, std::size_t firstC
     into.tokens.push_back(token);
     space = lineBreak = false;
   }
-  if (anyHan) markWords(text, firstByte, into.tokens);
+  into.anyHan = anyHan;
+}
+
+void markWords(std::string_view text, std::uint32_t firstByte, TokenList& list) {
+  if (list.anyHan) markLongWords(text, firstByte, list.tokens);
 }
 
 std::vector<std::string> wordsOf(std::string_view term) {

@@ -24,7 +24,7 @@ struct Token {
   std::size_t stop = 0;
   bool spaceBefore = false;
   bool lineBreakBefore = false;
-  /// Of a Chinese character: Unicode's word breaks put it inside a word of several characters (the 花 in 花費).
+  /// Of a Chinese character, once markWords was called: Unicode's word breaks put it inside a word of several characters (花費).
   bool insideWord = false;
 };
 
@@ -32,6 +32,7 @@ struct Token {
 struct TokenList {
   std::string letters;
   std::vector<Token> tokens;
+  bool anyHan = false;
 
   TokenList() = default;
   TokenList(const TokenList&) = delete;
@@ -42,6 +43,10 @@ struct TokenList {
 
 /// Cuts `text`, which is well-formed UTF-8 and begins at byte `firstByte`, character `firstCharacter` of the description.
 void tokenize(std::string_view text, std::uint32_t firstByte, std::size_t firstCharacter, TokenList& into);
+
+/// Finds the words that Chinese characters stand in, by Unicode's word breaks and ICU's dictionary. `text` and `firstByte` as for
+/// tokenize. Slow beside the rest, so only for text that does not read like a description throughout.
+void markWords(std::string_view text, std::uint32_t firstByte, TokenList& list);
 
 /// The folded words of a vocabulary term, in order.
 [[nodiscard]] std::vector<std::string> wordsOf(std::string_view term);
