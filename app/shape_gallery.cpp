@@ -1,0 +1,149 @@
+// What the contact sheet shows: every shape that organs, keywords and emit have, with its names.
+#include "app/commands.hpp"
+#include "app/terminal.hpp"
+#include "base/text.hpp"
+#include "emit/arrangement.hpp"
+#include "emit/inflorescence.hpp"
+#include "keywords/keywords.hpp"
+#include "organs/organs.hpp"
+#include "render/gallery.hpp"
+#include "render/picture.hpp"
+#include "simeco/simeco.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace axil::app {
+
+namespace {
+
+using organs::LeafFeature;
+using render::GalleryCell;
+using render::GallerySection;
+
+/// The first Traditional Chinese word of a concept; empty where the vocabulary has none.
+std::string chineseOf(std::initializer_list<const char*> properties, const std::string& name) {
+  for (const char* property : properties)
+    for (const keywords::Category& category : keywords::vocabulary())
+      if (category.property == property)
+        for (const keywords::Concept& entry : category.concepts)
+          if (entry.name == name && !entry.traditional.empty()) return entry.traditional.front().words;
+  return {};
+}
+
+GallerySection leafShapes() {
+  GallerySection section{"Leaf shapes", "葉形", {}};
+  for (const organs::LeafShape& shape : organs::leafShapes()) section.cells.push_back({shape.name, chineseOf({"shape"}, shape.name), render::FlatLeaf{shape}});
+  return section;
+}
+
+/// One feature in all its kinds, upon the same blade; `from` and `to` say which end of it is shown.
+GallerySection featureSection(const char* english, const char* chinese, LeafFeature feature, const char* property, const char* blade, double width, double from, double to) {
+  GallerySection section{english, chinese, {}};
+  const organs::LeafShape plain = organs::withWidth(*organs::leafShapeNamed(blade), width);
+  for (const std::string& name : organs::leafFeatureNames(feature))
+    section.cells.push_back({name, chineseOf({property}, name), render::FlatLeaf{*organs::withFeature(plain, feature, name), from, to}});
+  return section;
+}
+
+/// Venation is drawn on a blade that has it.
+GallerySection venations() {
+  GallerySection section{"Venation", "葉脈", {}};
+  for (const std::string& name : organs::leafFeatureNames(LeafFeature::Veins)) {
+    const char* blade = name == "parallel-veined" ? "lanceolate" : name == "dichotomous" ? "flabellate" : name == "palmate-veined" ? "cordate" : name == "one-veined" ? "linear" : "ovate";
+    section.cells.push_back({name, chineseOf({"venation"}, name), render::FlatLeaf{*organs::withFeature(*organs::leafShapeNamed(blade), LeafFeature::Veins, name)}});
+  }
+  return section;
+}
+
+GallerySection compoundLeaves() {
+  GallerySection section{"Compound leaves", "複葉", {}};
+  for (const std::string& name : organs::leafTypeNames()) {
+    if (name == "pinnate" || name == "compound") continue;  // drawn as odd-pinnate
+    const auto type = *organs::leafTypeNamed(name);
+    const char* leaflet = type == organs::LeafType::EvenPinnate || type == organs::LeafType::Bipinnate ? "oblong" : type == organs::LeafType::Palmate ? "obovate" : "ovate";
+    const organs::CompoundLeaf leaf{.type = type, .leaflet = *organs::leafShapeNamed(leaflet)};
+    section.cells.push_back({name, chineseOf({"type"}, name), render::meshOfParts(organs::compoundParts(leaf, organs::Detail::Close), "flat " + name)});
+  }
+  return section;
+}
+
+Result<render::PlantMesh> grownMesh(const Result<simeco::Grammar>& grammar) {
+  if (!grammar) return grammar.failure();
+  const auto growth = simeco::prepareGrowth(*grammar, {});
+  if (!growth) return growth.failure();
+  const auto plant = simeco::plantAt(*growth, simeco::completeTime(*growth));
+  if (!plant) return plant.failure();
+  return render::meshOf(*plant, {.detail = organs::Detail::Close});
+}
+
+Result<GallerySection> arrangements() {
+  GallerySection section{"Arrangement of leaves", "葉序", {}};
+  for (const std::string& name : keywords::arrangementNames()) {
+    auto mesh = grownMesh(emit::arrangementGrammar(*keywords::arrangementNamed(name)));
+    if (!mesh) return mesh.failure();
+    section.cells.push_back({name, chineseOf({"arrangement"}, name), std::move(*mesh)});
+  }
+  return section;
+}
+
+GallerySection flowers() {
+  GallerySection section{"Flowers", "花", {}};
+  for (const organs::FlowerShape& shape : organs::flowerShapes())
+    section.cells.push_back({shape.name, chineseOf({"form", "flower plan"}, shape.name), render::meshOfParts(organs::flowerParts(shape, organs::Detail::Close), shape.name)});
+  return section;
+}
+
+Result<GallerySection> inflorescences() {
+  GallerySection section{"Inflorescences", "花序", {}};
+  for (const std::string& name : emit::inflorescenceNames()) {
+    emit::InflorescencePlan plan;
+    plan.type = *emit::inflorescenceNamed(name);
+    plan.flowerModel = plan.type == emit::InflorescenceType::Catkin || plan.type == emit::InflorescenceType::Spadix ? "floret" : "five-petalled";
+    plan.flowerLength = plan.type == emit::InflorescenceType::Spadix ? 0.0035 : 0.01;
+    plan.flowerWidth = 2 * plan.flowerLength;
+    if (plan.flowerModel != "floret") plan.colours = {{0.85, 0.42, 0.60}};
+    auto mesh = grownMesh(emit::inflorescenceGrammar(plan));
+    if (!mesh) return mesh.failure();
+    section.cells.push_back({name, chineseOf({"type"}, name), std::move(*mesh)});
+  }
+  return section;
+}
+
+GallerySection fruits() {
+  GallerySection section{"Fruits", "果實", {}};
+  for (const organs::FruitShape& shape : organs::fruitShapes())
+    section.cells.push_back({shape.name, chineseOf({"type"}, shape.name), render::meshOfParts(organs::fruitParts(shape, organs::Detail::Close), shape.name)});
+  return section;
+}
+
+Result<std::vector<GallerySection>> sections() {
+  std::vector<GallerySection> all{leafShapes(),
+                                  featureSection("Apexes", "葉尖", LeafFeature::Apex, "apex", "elliptic", 0.62, 0.52, 1.5),
+                                  featureSection("Bases", "葉基", LeafFeature::Base, "base", "elliptic", 0.62, -0.6, 0.5),
+                                  featureSection("Margins", "葉緣", LeafFeature::Margin, "margin", "ovate", 0.6, -0.3, 1.2),
+                                  venations(), compoundLeaves()};
+  auto stems = arrangements();
+  if (!stems) return stems.failure();
+  auto flowering = inflorescences();
+  if (!flowering) return flowering.failure();
+  all.push_back(std::move(*stems));
+  all.push_back(flowers());
+  all.push_back(std::move(*flowering));
+  all.push_back(fruits());
+  return all;
+}
+
+}  // namespace
+
+int drawShapeGallery(const std::string& out) {
+  const auto all = sections();
+  if (!all) return report(all.error());
+  const auto image = render::drawGallery(*all);
+  if (!image) return report(image.error());
+  const auto written = render::writePng(out, *image);
+  return written ? 0 : report(written.error());
+}
+
+}  // namespace axil::app
