@@ -21,6 +21,7 @@ struct EmitCommand {
   int decimals = 6;
   std::uint64_t seed = 1;
   std::string out;
+  emit::StructureOptions structure;
 };
 
 /// To OUT, with the files that the dialect wants beside it; without OUT the text alone, to stdout.
@@ -38,7 +39,7 @@ int written(const emit::DialectText& text, const std::string& out) {
 int run(const EmitCommand& command) {
   if (command.dialect != emit::Dialect::SimEco && command.turning == TurningRule::Literal)
     return report({ErrorCode::BadInput, "only SimEco text can follow the literal turning rule; leave --literal out for other dialects", {}});
-  const document::ChainOptions options{.turning = command.turning, .decimals = command.decimals, .watch = terminalWatch()};
+  const document::ChainOptions options{.turning = command.turning, .decimals = command.decimals, .structure = command.structure, .watch = terminalWatch()};
   const auto open = document::loadProject(command.project);
   if (!open) return report(open.error());
   const auto grammar = document::grammarOf(*open, command.kind, options);
@@ -50,6 +51,7 @@ int run(const EmitCommand& command) {
 const std::map<std::string, document::GrammarKind> kKinds = {{"initial", document::GrammarKind::Initial},
                                                              {"predictive", document::GrammarKind::Predictive},
                                                              {"structured", document::GrammarKind::Structured}};
+const std::map<std::string, emit::StructuredForm> kForms = {{"statistical", emit::StructuredForm::Statistical}, {"exact", emit::StructuredForm::Exact}};
 const std::map<std::string, emit::Dialect> kDialects = {
     {"simeco", emit::Dialect::SimEco}, {"cpfg", emit::Dialect::Cpfg}, {"lpy", emit::Dialect::LPy}, {"mtg", emit::Dialect::Mtg}};
 
@@ -67,6 +69,12 @@ void addEmit(CLI::App& sub, int& status) {
   sub.add_option("--decimals", command.decimals, "Digits after the point; -1 prints full precision")->check(CLI::Range(-1, 15))->capture_default_str();
   sub.add_option("-o,--out", command.out, "Write to this file instead of stdout; cpfg's view and animation files go beside it");
   sub.add_option("--seed", command.seed, "Which plant of a family the mtg table shows, and the seed in a lpy program")->capture_default_str();
+  sub.add_option("--form", command.structure.form, "Of a structured grammar: statistical (a family of such plants) or exact (this plant, rules and tables)")
+      ->transform(CLI::CheckedTransformer(kForms))
+      ->option_text("FORM [statistical]");
+  sub.add_option("--error", command.structure.maximumError, "Exact form: how far a node may be off, as a share of the height")->check(CLI::Range(1e-6, 0.5))->capture_default_str();
+  sub.add_option("--detail", command.structure.detail, "Exact form: how much errors weigh against the length of the text")->check(CLI::Range(1e-3, 1e6))->capture_default_str();
+  sub.add_option("--orders", command.structure.orders, "Statistical form: keep so many branching orders")->check(CLI::Range(1, 1000));
   addLiteral(sub, command.turning);
 }
 

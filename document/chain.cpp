@@ -149,7 +149,7 @@ Result<simeco::Grammar> grammarOf(const Project& project, const quantify::Measur
   switch (kind) {
     case GrammarKind::Initial: return emit::initialGrammar(measurements, emitOptions);
     case GrammarKind::Predictive: return emit::predictiveGrammar(measurements, emitOptions);
-    case GrammarKind::Structured: return emit::structuredGrammar(measurements, emitOptions);
+    case GrammarKind::Structured: return emit::structuredGrammar(measurements, emitOptions, options.structure);
   }
   return emit::initialGrammar(measurements, emitOptions);
 }

@@ -20,6 +20,7 @@ struct ChainOptions {
   skeleton3d::SolveOptions solve = {};
   TurningRule turning = TurningRule::Exact;
   int decimals = 6;  ///< of the numbers in a grammar; -1: full precision
+  emit::StructureOptions structure = {};
   simeco::Limits limits = {};  ///< of growing the grammars
   Watch watch = {};
   /// How size and lens of a photo are found out; whoever asks often keeps the answers.

@@ -3,6 +3,7 @@
 #include "base/text.hpp"
 #include "emit/assembly.hpp"
 #include "emit/builder.hpp"
+#include "emit/exact.hpp"
 #include "emit/plan.hpp"
 #include "quantify/statistics.hpp"
 
@@ -226,8 +227,12 @@ class Structurer {
 
 Result<simeco::Grammar> structuredGrammar(const Measurements& measurements, const EmitOptions& options, const StructureOptions& structure) {
   if (structure.orders && *structure.orders < 1) return fail(ErrorCode::BadInput, std::to_string(*structure.orders) + " branching orders are not possible; keep at least 1");
+  if (!(structure.maximumError > 0 && structure.maximumError <= 0.5) || !(structure.detail > 0 && std::isfinite(structure.detail)))
+    return fail(ErrorCode::BadInput, "an error of " + shortest(structure.maximumError) + " of the height or a detail of " + shortest(structure.detail) +
+                                         " is not possible; give an error above 0 up to 0.5 and a detail above 0");
   const Result<Plan> plan = planOf(measurements, options);
   if (!plan) return plan.failure();
+  if (structure.form == StructuredForm::Exact) return exactGrammar(measurements, options, structure);
   std::vector<OrderStatistics> orders = quantify::orderStatistics(measurements);
   if (structure.orders && static_cast<std::size_t>(*structure.orders) < orders.size()) orders.resize(static_cast<std::size_t>(*structure.orders));
   return Structurer(measurements, *plan, options, std::move(orders)).structured();

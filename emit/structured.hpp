@@ -1,9 +1,18 @@
 #pragma once
 /// \file
-/// The structured grammar: a plant *like* the measured one in few rules that a person can read. Two rules a branching order,
-/// `A(order, n)` being an apex that still makes n segments; numbers are drawn with the mean and standard deviation measured on
-/// that order. It describes a family of plants, of which every seed grows one; it does not regrow the measured plant. The text is SimEco 1.1.
-/// Source: the future work of L-Grammar Generator 2005, chapter 4.
+/// The structured grammar: the plant in few self-iterating rules that a person can read. Two forms.
+///
+/// *Statistical*: plants like the measured one. Two rules a branching order, `A(order, n)` being an apex that still makes n segments; numbers are
+/// drawn as they were measured on that order. It describes a family, of which every seed grows one.
+///
+/// *Exact*: this plant. One rule for an apex, one for axillary buds and one for leaf buds serve all orders; what the rules say about every
+/// segment (usual length, bend, insertion, divergence) stands in short arrays by order, and where a segment differs, a table says by how
+/// much, in whole steps. Steps are as coarse as the node error allows, and each node is aimed at where it was measured from where the
+/// steps before really led, so that rounding never adds up.
+///
+/// How many steps, and whether lengths get a trend and azimuths a divergence, is chosen by description length: the text's bits, plus for every
+/// node the bits that its error costs against the accuracy of measuring. `detail` turns that: above 1 errors cost more, and tables grow finer.
+/// Both are SimEco 1.1. Sources: the future work of L-Grammar Generator 2005, chapter 4; Rissanen 1978 (description length).
 
 #include "base/result.hpp"
 #include "emit/initial.hpp"
@@ -11,14 +20,20 @@
 #include "simeco/grammar.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace axil::emit {
 
+enum class StructuredForm { Statistical, Exact };
+
 struct StructureOptions {
-  std::optional<int> orders;  ///< how many branching orders to keep, from 1; none: all that were measured
+  StructuredForm form = StructuredForm::Statistical;
+  std::optional<int> orders = {};  ///< how many branching orders to keep, from 1; none: all that were measured
+  double maximumError = 0.015;     ///< exact: how far a node may be from where it was measured, as a share of the height
+  double detail = 1;               ///< exact: how much an error weighs against the length of the text
 };
 
-/// Fails as initialGrammar does, and with BadInput for orders below 1.
+/// Fails as initialGrammar does, and with BadInput for options out of range.
 [[nodiscard]] Result<simeco::Grammar> structuredGrammar(const quantify::Measurements& measurements, const EmitOptions& options = {},
                                                         const StructureOptions& structure = {});
 
