@@ -11,4 +11,5 @@
 #include "emit/initial.hpp"     // regrows the measured plant; EmitOptions
 #include "emit/predictive.hpp"  // and one stage more
 #include "emit/structured.hpp"  // plants like it, in few rules
+#include "emit/described.hpp"   // from words alone
 #include "emit/dialects.hpp"    // cpfg, L-Py, MTG
