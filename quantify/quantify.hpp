@@ -22,3 +22,4 @@
 #include "quantify/schedule.hpp"    // when each part was made, and what still grows
 #include "quantify/layers.hpp"      // statistics by order and rank, of one plant or many
 #include "quantify/outlook.hpp"     // what the next stages will be like
+#include "quantify/backtest.hpp"    // how well that foretells what is known
