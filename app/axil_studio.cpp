@@ -12,6 +12,7 @@
 
 #include <cstdio>
 #include <map>
+#include <optional>
 
 namespace {
 
@@ -23,14 +24,14 @@ struct Options {
   std::string screenshot;
   int width = 1440;
   int height = 900;
-  double scale = 0;
-  ui::Theme theme = ui::Theme::Dark;
-  ui::Language language = ui::Language::English;
+  std::optional<float> scale;
+  std::optional<ui::Theme> theme;
+  std::optional<ui::Language> language;
 };
 
 Result<void> replay(const Options& options) {
   constexpr std::uintmax_t kMaximumSessionBytes = 100'000'000;
-  ui::StudioOptions studio{.stateFolder = {}, .theme = options.theme, .language = options.language, .scale = options.scale > 0 ? static_cast<float>(options.scale) : 1.0f, .wake = {}};
+  ui::StudioOptions studio{.stateFolder = {}, .theme = options.theme, .language = options.language, .scale = options.scale, .screenScale = 1, .wake = {}};
   auto headless = ui::HeadlessStudio::open(std::move(studio), options.width, options.height);
   if (!headless) return headless.failure();
   if (!options.project.empty())
@@ -47,7 +48,7 @@ Result<void> replay(const Options& options) {
 }
 
 Result<void> window(const Options& options) {
-  ui::WindowOptions window{.project = options.project, .studio = {.stateFolder = {}, .theme = options.theme, .language = options.language, .scale = static_cast<float>(options.scale), .wake = {}}};
+  ui::WindowOptions window{.project = options.project, .studio = {.stateFolder = {}, .theme = options.theme, .language = options.language, .scale = options.scale, .screenScale = 1, .wake = {}}};
   // Without a home folder there is no journal; work goes on all the same.
   if (const auto folder = document::stateFolder()) window.studio.stateFolder = *folder;
   return ui::runWindow(std::move(window));
@@ -60,9 +61,9 @@ void describe(CLI::App& app, Options& options) {
   app.add_option("PROJECT", options.project, "A project file, NAME.axil");
   app.add_option("--replay", options.replay, "Do a saved session's lines without a window, then end");
   app.add_option("--screenshot", options.screenshot, "Draw what the window shows into a PNG, without a window");
-  app.add_option("--theme", options.theme, "dark or light")->transform(CLI::CheckedTransformer(themes))->option_text("THEME [dark]");
-  app.add_option("--language", options.language, "en, zh_hant or zh_hans")->transform(CLI::CheckedTransformer(languages))->option_text("LANGUAGE [en]");
-  app.add_option("--scale", options.scale, "Size of everything, 1 to 2.5; by default as the screen says")->check(CLI::Range(0.5, 4.0));
+  app.add_option("--theme", options.theme, "dark or light; by default as last time")->transform(CLI::CheckedTransformer(themes))->option_text("THEME");
+  app.add_option("--language", options.language, "en, zh_hant or zh_hans; by default as last time")->transform(CLI::CheckedTransformer(languages))->option_text("LANGUAGE");
+  app.add_option("--scale", options.scale, "Size of everything, 1 to 2.5; by default as last time, at first as the screen says")->check(CLI::Range(0.5, 4.0));
   app.add_option("--width", options.width, "Of a screenshot, pixels")->check(CLI::Range(640, 8192))->capture_default_str();
   app.add_option("--height", options.height, "Of a screenshot, pixels")->check(CLI::Range(480, 8192))->capture_default_str();
   app.footer("Examples:\n  axil-studio plant.axil\n  axil-studio --replay session.txt --screenshot out.png plant.axil");

@@ -42,7 +42,7 @@ NodeId nextWithout(const Project& project, NodeId node, const std::string& view)
 }
 
 ClickMeaning place(const Project& project, NodeId node, const PhotoClick& click) {
-  return {ClickKind::Place, Step{document::AddClick{node, click.view, click.at}}, {nextWithout(project, node, click.view)}, node, stemOf(project, node)};
+  return {ClickKind::Place, Step{document::AddClick{node, click.view, click.at}}, {.node = nextWithout(project, node, click.view), .others = {}}, node, stemOf(project, node)};
 }
 
 ClickMeaning grow(const Project& project, NodeId node, const PhotoClick& click) {
@@ -52,25 +52,46 @@ ClickMeaning grow(const Project& project, NodeId node, const PhotoClick& click) 
   step.emplace_back(document::AddNode{added, click.view, click.at});
   if (const auto stem = growingStem(project, node)) {
     step.emplace_back(document::AppendNode{*stem, added});
-    return {ClickKind::Extend, step, {added}, node, stem};
+    return {ClickKind::Extend, step, {.node = added, .others = {}}, node, stem};
   }
   const StemId stem = document::nextStemId(project);
   if (document::stemThrough(project, node) || !document::stemsFrom(project, node).empty()) {
     step.emplace_back(document::StartBranch{stem, node});
     step.emplace_back(document::AppendNode{stem, added});
-    return {ClickKind::Branch, step, {added}, node, stem};
+    return {ClickKind::Branch, step, {.node = added, .others = {}}, node, stem};
   }
   step.emplace_back(document::AddStem{stem, {node, added}});
-  return {ClickKind::Extend, step, {added}, node, stem};
+  return {ClickKind::Extend, step, {.node = added, .others = {}}, node, stem};
 }
 
 ClickMeaning beginStem(const Project& project, const PhotoClick& click) {
   const NodeId node = document::nextNodeId(project);
   const StemId stem = document::nextStemId(project);
-  return {ClickKind::Begin, Step{document::AddNode{node, click.view, click.at}, document::AddStem{stem, {node}}}, {node}, node, stem};
+  return {ClickKind::Begin, Step{document::AddNode{node, click.view, click.at}, document::AddStem{stem, {node}}}, {.node = node, .others = {}}, node, stem};
 }
 
 }  // namespace
+
+bool Selection::has(NodeId id) const { return node == id || std::find(others.begin(), others.end(), id) != others.end(); }
+
+std::vector<NodeId> Selection::all() const {
+  std::vector<NodeId> nodes = others;
+  if (node) nodes.insert(nodes.begin(), *node);
+  return nodes;
+}
+
+void Selection::add(NodeId id) {
+  if (has(id)) return;
+  if (node) others.push_back(id);
+  else node = id;
+}
+
+void Selection::remove(NodeId id) {
+  std::erase(others, id);
+  if (node != id) return;
+  node = others.empty() ? std::nullopt : std::optional(others.front());
+  if (!others.empty()) others.erase(others.begin());
+}
 
 std::optional<StemId> stemOf(const Project& project, NodeId node) {
   if (const auto through = document::stemThrough(project, node)) return stemAt(project, *through).id;
@@ -95,7 +116,7 @@ std::optional<NodeId> nodeAt(const Project& project, const PhotoClick& click) {
 ClickMeaning meaningOf(const Project& project, const Selection& selection, const PhotoClick& click) {
   if (!document::viewNamed(project, click.view)) return {};
   if (click.picking == Picking::PickNodes)
-    if (const auto node = nodeAt(project, click)) return {ClickKind::Select, {}, {node}, node, stemOf(project, *node)};
+    if (const auto node = nodeAt(project, click)) return {ClickKind::Select, {}, {.node = node, .others = {}}, node, stemOf(project, *node)};
   const bool selected = selection.node && document::nodeWithId(project, *selection.node);
   if (selected && !hasClick(project, *selection.node, click.view)) return place(project, *selection.node, click);
   if (selected) return grow(project, *selection.node, click);

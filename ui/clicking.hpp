@@ -12,11 +12,19 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace axil::ui {
 
+/// The selected node, which says what a click does, and others that are deleted and moved with it.
 struct Selection {
-  std::optional<document::NodeId> node;
+  std::optional<document::NodeId> node = {};
+  std::vector<document::NodeId> others = {};
+
+  [[nodiscard]] bool has(document::NodeId id) const;
+  [[nodiscard]] std::vector<document::NodeId> all() const;  ///< the selected node first
+  void add(document::NodeId id);
+  void remove(document::NodeId id);
   friend bool operator==(const Selection&, const Selection&) = default;
 };
 

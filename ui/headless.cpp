@@ -100,7 +100,7 @@ class Canvas {
 
 /// The keys of a keyboard, numbered as the desktop window numbers them.
 void nameKeys(ImGuiIO& io) {
-  const std::pair<ImGuiKey, int> keys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB}, {ImGuiKey_LeftArrow, GLFW_KEY_LEFT}, {ImGuiKey_RightArrow, GLFW_KEY_RIGHT}, {ImGuiKey_Home, GLFW_KEY_HOME},
+  const std::pair<ImGuiKey, int> keys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB}, {ImGuiKey_LeftArrow, GLFW_KEY_LEFT}, {ImGuiKey_RightArrow, GLFW_KEY_RIGHT}, {ImGuiKey_UpArrow, GLFW_KEY_UP}, {ImGuiKey_DownArrow, GLFW_KEY_DOWN}, {ImGuiKey_Home, GLFW_KEY_HOME},
                                            {ImGuiKey_End, GLFW_KEY_END}, {ImGuiKey_Delete, GLFW_KEY_DELETE}, {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE}, {ImGuiKey_Space, GLFW_KEY_SPACE},
                                            {ImGuiKey_Enter, GLFW_KEY_ENTER}, {ImGuiKey_Escape, GLFW_KEY_ESCAPE}, {ImGuiKey_A, GLFW_KEY_A}, {ImGuiKey_Z, GLFW_KEY_Z}};
   for (const auto& [name, number] : keys) io.KeyMap[name] = number;
@@ -108,7 +108,7 @@ void nameKeys(ImGuiIO& io) {
 
 std::optional<int> keyNamed(const std::string& name) {
   static const std::map<std::string, int> kKeys = {{"escape", GLFW_KEY_ESCAPE}, {"delete", GLFW_KEY_DELETE}, {"f1", GLFW_KEY_F1}, {"enter", GLFW_KEY_ENTER}, {"slash", GLFW_KEY_SLASH},
-                                                   {"backspace", GLFW_KEY_BACKSPACE}, {"space", GLFW_KEY_SPACE}};
+                                                   {"backspace", GLFW_KEY_BACKSPACE}, {"space", GLFW_KEY_SPACE}, {"up", GLFW_KEY_UP}, {"down", GLFW_KEY_DOWN}, {"home", GLFW_KEY_HOME}, {"end", GLFW_KEY_END}};
   if (const auto key = kKeys.find(name); key != kKeys.end()) return key->second;
   if (name.size() == 1 && name[0] >= 'a' && name[0] <= 'z') return GLFW_KEY_A + (name[0] - 'a');
   if (name.size() == 1 && name[0] >= '0' && name[0] <= '9') return GLFW_KEY_0 + (name[0] - '0');
@@ -220,6 +220,27 @@ struct HeadlessStudio::Inside {
     ImGui::GetIO().KeyShift = false;
     return done;
   }
+  Result<void> menu(const Words& w) {
+    const auto at = onScreen(w[0], w[1], w[2]);
+    if (!at) return at.failure();
+    moveTo(*at);
+    ImGui::GetIO().MouseDown[1] = true;
+    frame();
+    ImGui::GetIO().MouseDown[1] = false;
+    frame();
+    frame();
+    return {};
+  }
+  Result<void> dragBorder(const Words& w) {
+    const auto place = studio->state().landmarks.find(w[0]);
+    const auto dx = parseNumber(w[1]), dy = parseNumber(w[2]);
+    if (place == studio->state().landmarks.end()) return fail(ErrorCode::NotFound, "nothing is called " + w[0]);
+    if (!dx || !dy) return fail(ErrorCode::BadInput, "ui drag_border takes two numbers");
+    const auto [x, y, width, height] = place->second;
+    const ImVec2 from{x + width / 2, y + height / 4};
+    dragTo(from, {from.x + static_cast<float>(*dx), from.y + static_cast<float>(*dy)}, 0);
+    return {};
+  }
   Result<void> move(const Words& w) {
     const auto at = onScreen(w[0], w[1], w[2]);
     if (!at) return at.failure();
@@ -266,7 +287,8 @@ struct HeadlessStudio::Inside {
     ImGuiIO& io = ImGui::GetIO();
     std::string name = w[0];
     for (std::size_t plus = name.find('+'); plus != std::string::npos; plus = name.find('+')) {
-      (name.substr(0, plus) == "ctrl" ? io.KeyCtrl : io.KeyShift) = true;
+      const std::string held = name.substr(0, plus);
+      (held == "ctrl" ? io.KeyCtrl : held == "alt" ? io.KeyAlt : io.KeyShift) = true;
       name = name.substr(plus + 1);
     }
     const auto number = keyNamed(name);
@@ -275,7 +297,7 @@ struct HeadlessStudio::Inside {
       frame();
       io.KeysDown[*number] = false;
     }
-    io.KeyCtrl = io.KeyShift = false;
+    io.KeyCtrl = io.KeyShift = io.KeyAlt = false;
     frame();
     if (!number) return fail(ErrorCode::BadInput, "no key is called " + name);
     return {};
@@ -338,7 +360,7 @@ struct HeadlessStudio::Inside {
       std::function<Result<void>(Inside&, const Words&)> act;
     };
     static const std::map<std::string, Row> kRows = {
-        {"click", {3, &Inside::click}}, {"shift_click", {3, &Inside::shiftClick}}, {"move", {3, &Inside::move}}, {"drag", {5, &Inside::drag}}, {"wheel", {4, &Inside::wheel}}, {"pan", {3, &Inside::pan}},
+        {"click", {3, &Inside::click}}, {"shift_click", {3, &Inside::shiftClick}}, {"menu", {3, &Inside::menu}}, {"drag_border", {3, &Inside::dragBorder}}, {"move", {3, &Inside::move}}, {"drag", {5, &Inside::drag}}, {"wheel", {4, &Inside::wheel}}, {"pan", {3, &Inside::pan}},
         {"press", {1, &Inside::press}}, {"key", {1, &Inside::key}}, {"frames", {1, &Inside::frames}}, {"way", {1, &Inside::way}}, {"theme", {1, &Inside::theme}},
         {"language", {1, &Inside::language}}, {"scale", {1, &Inside::scale}}, {"time", {1, &Inside::time}}, {"orbit", {3, &Inside::orbit}}, {"screenshot", {1, &Inside::screenshot}},
         {"wait", {0, [](Inside& in, const Words&) { return in.wait(); }}}};

@@ -67,6 +67,9 @@ void welcome(const Panel& panel, Area area);
 void timeline(const Panel& panel, Area area);
 void shortcutsSheet(const Panel& panel);
 void historySheet(const Panel& panel);
+[[nodiscard]] Taken paletteSheet(const Panel& panel);
+/// The card of the guided tour, and a frame around what it speaks of.
+void tourCard(const Panel& panel);
 /// Unsaved work, or work left by a crash: one question, its answers are wishes.
 void questionSheet(const Panel& panel);
 [[nodiscard]] Taken fileDialog(const Panel& panel);

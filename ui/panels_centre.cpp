@@ -215,10 +215,29 @@ void grammarText(const Panel& panel, Area area) {
 
 // ---- nothing is open ----------------------------------------------------------------------------------------------------------
 
+namespace {
+
+void recentProjects(const Panel& panel) {
+  const auto& recent = panel.state.preferences.recent;
+  if (recent.empty()) return;
+  gap(panel, 10);
+  heading(panel, "recent_projects");
+  for (std::size_t i = 0; i < recent.size(); ++i) {
+    const std::string label = recent[i].filename().string() + "##recent" + std::to_string(i);
+    if (ImGui::Selectable(label.c_str())) panel.state.wishes.push_back(WishOpen{recent[i]});
+    landmark(panel, "recent_" + std::to_string(i));
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", recent[i].string().c_str());
+    ImGui::SameLine(panel.px(180));
+    ImGui::TextDisabled("%s", recent[i].parent_path().string().c_str());
+  }
+}
+
+}  // namespace
+
 void welcome(const Panel& panel, Area area) {
   const float width = panel.px(440);
-  ImGui::SetCursorScreenPos({area.x + (area.width - width) / 2, area.y + area.height * 0.24f});
-  ImGui::BeginChild("##welcome", {width, panel.px(420)});
+  ImGui::SetCursorScreenPos({area.x + (area.width - width) / 2, area.y + area.height * 0.14f});
+  ImGui::BeginChild("##welcome", {width, area.height * 0.84f});
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   drawIcon(list, Icon::Grow, {at.x + panel.px(30), at.y + panel.px(30)}, panel.px(56), panel.palette.accent);
@@ -229,6 +248,8 @@ void welcome(const Panel& panel, Area area) {
   const std::filesystem::path samples = samplesFolder();
   if (!samples.empty() && button(panel, "open_sample", Emphasis::Primary, width)) panel.state.wishes.push_back(WishOpen{samples / "lantana" / "lantana.axil"});
   gap(panel, 2);
+  if (!samples.empty() && button(panel, "tour_offer", Emphasis::Plain, width)) panel.state.wishes.push_back(WishTour{});
+  gap(panel, 2);
   if (button(panel, "new_from_photos", Emphasis::Plain, width)) {
     panel.state.way = Way::Photos;
     panel.state.begun = true;
@@ -238,6 +259,7 @@ void welcome(const Panel& panel, Area area) {
   if (button(panel, "open_project", Emphasis::Plain, width)) panel.state.dialog = {DialogKind::Open, std::filesystem::current_path(), "", ""};
   gap(panel, 8);
   quiet(panel, panel.t("welcome_drop"));
+  recentProjects(panel);
   ImGui::EndChild();
 }
 

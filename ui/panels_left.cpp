@@ -2,6 +2,7 @@
 #include "document/lookup.hpp"
 #include "keywords/presets.hpp"
 #include "organs/leaf.hpp"
+#include "ui/leaf_steps.hpp"
 #include "ui/widgets_interop.hpp"
 
 #include <algorithm>
@@ -61,60 +62,6 @@ void wayRow(const Panel& panel, Way way) {
 
 // ---- describe --------------------------------------------------------------------------------------------------------------
 
-std::string valueText(const keywords::Trait& trait) {
-  if (!trait.low) return trait.value;
-  const auto number = [](double v) { return shortest(roundedTo(v, 4)); };
-  return number(*trait.low) + (trait.high && trait.high != trait.low ? " – " + number(*trait.high) : "") + (trait.unit.empty() ? "" : " " + trait.unit);
-}
-
-const document::ProjectTrait* decisionOn(const document::Project& project, const keywords::Trait& trait) {
-  for (const document::ProjectTrait& decision : project.traits)
-    if (decision.organ == trait.organ && decision.property == trait.property && decision.words == trait.text) return &decision;
-  return nullptr;
-}
-
-Taken traitRow(const Panel& panel, const keywords::Trait& trait, std::size_t index) {
-  Taken taken;
-  const document::ProjectTrait* decision = decisionOn(panel.project, trait);
-  const bool rejected = decision != nullptr && decision->verdict == document::Verdict::Rejected;
-  const bool accepted = decision != nullptr && !rejected;
-  ImGui::PushID(static_cast<int>(index));
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = panel.px(42);
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const bool hovered = ImGui::IsMouseHoveringRect(at, {at.x + width, at.y + height}) && ImGui::IsWindowHovered();
-  if (hovered) panel.state.hotTrait = index;
-  list.AddRectFilled(at, {at.x + width, at.y + height}, hovered ? panel.palette.hovered : panel.palette.raised, panel.px(6));
-  const Colour ink = rejected ? panel.palette.quiet : panel.palette.text;
-  const std::string value = valueText(trait);
-  list.PushClipRect(at, {at.x + width - panel.px(62), at.y + height}, true);
-  list.AddText({at.x + panel.px(10), at.y + panel.px(4)}, ink, value.c_str());
-  if (rejected) {
-    const float w = ImGui::CalcTextSize(value.c_str()).x, y = at.y + panel.px(4) + ImGui::GetFontSize() / 2;
-    list.AddLine({at.x + panel.px(10), y}, {at.x + panel.px(10) + w, y}, ink, 1);
-  }
-  ImGui::PushFont(font(Face::Small));
-  const std::string from = trait.organ + " · " + trait.property + (trait.qualifier.empty() ? "" : " · " + trait.qualifier);
-  list.AddText({at.x + panel.px(10), at.y + panel.px(23)}, panel.palette.quiet, from.c_str());
-  ImGui::PopFont();
-  list.PopClipRect();
-  const float size = panel.px(24);
-  ImGui::SetCursorScreenPos({at.x + width - 2 * size - panel.px(10), at.y + (height - size) / 2});
-  if (iconButton(panel, "accept", Icon::Check, panel.t("trait_accept"), size))
-    taken = accepted ? Step{document::ForgetTrait{trait.organ, trait.property, trait.text}} : Step{document::AcceptTrait{trait.organ, trait.property, trait.text}};
-  if (accepted) drawIcon(list, Icon::Check, {at.x + width - 1.5f * size - panel.px(10), at.y + height / 2}, size * 0.5f, panel.palette.accent);
-  ImGui::SetCursorScreenPos({at.x + width - size - panel.px(6), at.y + (height - size) / 2});
-  if (iconButton(panel, "reject", Icon::Cross, panel.t("trait_reject"), size))
-    taken = rejected ? Step{document::ForgetTrait{trait.organ, trait.property, trait.text}} : Step{document::RejectTrait{trait.organ, trait.property, trait.text}};
-  if (rejected) drawIcon(list, Icon::Cross, {at.x + width - 0.5f * size - panel.px(6), at.y + height / 2}, size * 0.5f, panel.palette.error);
-  ImGui::SetCursorScreenPos({at.x, at.y + height + panel.px(4)});
-  ImGui::Dummy({1, 0});
-  ImGui::PopID();
-  return taken;
-}
-
-// ---- leaves ----------------------------------------------------------------------------------------------------------------
-
 void leafPreview(const Panel& panel, const std::string& shape) {
   const auto known = organs::leafShapeNamed(keywords::drawnShapeOf(shape));
   if (!known) return;
@@ -136,6 +83,133 @@ void leafPreview(const Panel& panel, const std::string& shape) {
   list.AddLine(place({0, -0.1f}), place({0, 1}), panel.palette.accent, panel.px(1.2f));
   ImGui::Dummy({width, height});
 }
+
+bool combo(const char* id, const std::vector<std::string>& names, std::string& chosen, const char* none) {
+  bool changed = false;
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::BeginCombo(id, chosen.empty() ? none : chosen.c_str())) return false;
+  if (ImGui::Selectable(none, chosen.empty())) chosen.clear(), changed = true;
+  for (const std::string& name : names)
+    if (ImGui::Selectable(name.c_str(), name == chosen)) chosen = name, changed = true;
+  ImGui::EndCombo();
+  return changed;
+}
+
+std::vector<std::string> shapeNames() {
+  std::vector<std::string> names;
+  for (const organs::LeafShape& shape : organs::leafShapes()) names.push_back(shape.name);
+  return names;
+}
+
+std::string valueText(const keywords::Trait& trait) {
+  if (!trait.low) return trait.value;
+  const auto number = [](double v) { return shortest(roundedTo(v, 4)); };
+  return number(*trait.low) + (trait.high && trait.high != trait.low ? " – " + number(*trait.high) : "") + (trait.unit.empty() ? "" : " " + trait.unit);
+}
+
+const document::ProjectTrait* decisionOn(const document::Project& project, const keywords::Trait& trait) {
+  for (const document::ProjectTrait& decision : project.traits)
+    if (decision.organ == trait.organ && decision.property == trait.property && decision.words == trait.text) return &decision;
+  return nullptr;
+}
+
+/// The value the project goes by: as read, or as the user changed it.
+keywords::Trait decided(keywords::Trait trait, const document::ProjectTrait* decision) {
+  if (decision == nullptr || decision->verdict != document::Verdict::Changed) return trait;
+  if (!decision->value.empty()) trait.value = decision->value;
+  if (decision->low) trait.low = decision->low, trait.high = decision->high, trait.unit = decision->unit;
+  return trait;
+}
+
+FactDraft draftOf(const keywords::Trait& trait, std::size_t index) {
+  const double low = trait.low.value_or(0);
+  return {.index = index, .value = trait.value, .low = low, .high = trait.high.value_or(low), .unit = trait.unit};
+}
+
+/// The words that a property can have, where they are few.
+std::vector<std::string> valuesOf(const keywords::Trait& trait) {
+  if (trait.property == "arrangement") return keywords::arrangementNames();
+  if (trait.property == "shape" && (trait.organ == "leaf" || trait.organ == "leaflet" || trait.organ == "blade")) return shapeNames();
+  return {};
+}
+
+/// The fields of a fact that is being changed; gives the step when they are applied.
+Taken factFields(const Panel& panel, const keywords::Trait& trait) {
+  FactDraft& draft = *panel.state.factDraft;
+  const float third = (ImGui::GetContentRegionAvail().x - panel.px(16)) / 3;
+  if (trait.low) {
+    ImGui::SetNextItemWidth(third);
+    ImGui::InputDouble("##low", &draft.low, 0, 0, "%.4g");
+    ImGui::SameLine(0, panel.px(8));
+    ImGui::SetNextItemWidth(third);
+    ImGui::InputDouble("##high", &draft.high, 0, 0, "%.4g");
+    ImGui::SameLine(0, panel.px(8));
+    ImGui::SetNextItemWidth(-1);
+    ImGui::InputText("##unit", &draft.unit);
+  } else if (const auto values = valuesOf(trait); !values.empty()) {
+    combo("##value", values, draft.value, "–");
+  } else {
+    ImGui::SetNextItemWidth(-1);
+    ImGui::InputText("##value", &draft.value);
+  }
+  if (trait.property == "shape") leafPreview(panel, draft.value);
+  Taken taken;
+  if (button(panel, "apply", Emphasis::Primary)) {
+    if (trait.low) taken = Step{document::ChangeTraitRange{trait.organ, trait.property, trait.text, std::min(draft.low, draft.high), std::max(draft.low, draft.high), draft.unit}};
+    else taken = Step{document::ChangeTrait{trait.organ, trait.property, trait.text, draft.value}};
+  }
+  ImGui::SameLine(0, panel.px(8));
+  if (button(panel, "cancel") || taken) panel.state.factDraft.reset();
+  gap(panel, 4);
+  return taken;
+}
+
+Taken traitRow(const Panel& panel, const keywords::Trait& read, std::size_t index) {
+  Taken taken;
+  const keywords::Trait trait = decided(read, decisionOn(panel.project, read));
+  const document::ProjectTrait* decision = decisionOn(panel.project, trait);
+  const bool rejected = decision != nullptr && decision->verdict == document::Verdict::Rejected;
+  const bool accepted = decision != nullptr && !rejected;
+  ImGui::PushID(static_cast<int>(index));
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = panel.px(42);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const bool hovered = ImGui::IsMouseHoveringRect(at, {at.x + width, at.y + height}) && ImGui::IsWindowHovered();
+  if (hovered) panel.state.hotTrait = index;
+  list.AddRectFilled(at, {at.x + width, at.y + height}, hovered ? panel.palette.hovered : panel.palette.raised, panel.px(6));
+  const Colour ink = rejected ? panel.palette.quiet : panel.palette.text;
+  const std::string value = valueText(trait);
+  list.PushClipRect(at, {at.x + width - panel.px(88), at.y + height}, true);
+  list.AddText({at.x + panel.px(10), at.y + panel.px(4)}, ink, value.c_str());
+  if (rejected) {
+    const float w = ImGui::CalcTextSize(value.c_str()).x, y = at.y + panel.px(4) + ImGui::GetFontSize() / 2;
+    list.AddLine({at.x + panel.px(10), y}, {at.x + panel.px(10) + w, y}, ink, 1);
+  }
+  ImGui::PushFont(font(Face::Small));
+  const std::string from = trait.organ + " · " + trait.property + (trait.qualifier.empty() ? "" : " · " + trait.qualifier);
+  list.AddText({at.x + panel.px(10), at.y + panel.px(23)}, panel.palette.quiet, from.c_str());
+  ImGui::PopFont();
+  list.PopClipRect();
+  const float size = panel.px(24);
+  ImGui::SetCursorScreenPos({at.x + width - 3 * size - panel.px(14), at.y + (height - size) / 2});
+  if (iconButton(panel, "change", Icon::Pencil, panel.t("trait_change"), size)) panel.state.factDraft = draftOf(trait, index);
+  ImGui::SetCursorScreenPos({at.x + width - 2 * size - panel.px(10), at.y + (height - size) / 2});
+  if (iconButton(panel, "accept", Icon::Check, panel.t("trait_accept"), size))
+    taken = accepted ? Step{document::ForgetTrait{trait.organ, trait.property, trait.text}} : Step{document::AcceptTrait{trait.organ, trait.property, trait.text}};
+  if (accepted) drawIcon(list, Icon::Check, {at.x + width - 1.5f * size - panel.px(10), at.y + height / 2}, size * 0.5f, panel.palette.accent);
+  ImGui::SetCursorScreenPos({at.x + width - size - panel.px(6), at.y + (height - size) / 2});
+  if (iconButton(panel, "reject", Icon::Cross, panel.t("trait_reject"), size))
+    taken = rejected ? Step{document::ForgetTrait{trait.organ, trait.property, trait.text}} : Step{document::RejectTrait{trait.organ, trait.property, trait.text}};
+  if (rejected) drawIcon(list, Icon::Cross, {at.x + width - 0.5f * size - panel.px(6), at.y + height / 2}, size * 0.5f, panel.palette.error);
+  ImGui::SetCursorScreenPos({at.x, at.y + height + panel.px(4)});
+  ImGui::Dummy({1, 0});
+  if (panel.state.factDraft && panel.state.factDraft->index == index)
+    if (Taken changed = factFields(panel, trait)) taken = std::move(changed);
+  ImGui::PopID();
+  return taken;
+}
+
+// ---- leaves ----------------------------------------------------------------------------------------------------------------
 
 template <class Value, class Draw>
 bool optionalRow(const Panel& panel, const char* key, std::optional<Value>& value, Value first, Draw draw) {
@@ -171,33 +245,6 @@ bool lengthRow(const Panel& panel, const char* key, std::optional<double>& lengt
   });
 }
 
-bool combo(const char* id, const std::vector<std::string>& names, std::string& chosen, const char* none) {
-  bool changed = false;
-  ImGui::SetNextItemWidth(-1);
-  if (!ImGui::BeginCombo(id, chosen.empty() ? none : chosen.c_str())) return false;
-  if (ImGui::Selectable(none, chosen.empty())) chosen.clear(), changed = true;
-  for (const std::string& name : names)
-    if (ImGui::Selectable(name.c_str(), name == chosen)) chosen = name, changed = true;
-  ImGui::EndCombo();
-  return changed;
-}
-
-std::vector<std::string> shapeNames() {
-  std::vector<std::string> names;
-  for (const organs::LeafShape& shape : organs::leafShapes()) names.push_back(shape.name);
-  return names;
-}
-
-quantify::LeafArrangement newLeaves(const Panel& panel, StemId stem) {
-  quantify::LeafArrangement leaves;
-  leaves.stem = stem;
-  leaves.nodes = 3;
-  leaves.arrangement = "alternate";
-  if (panel.following.said)
-    if (const auto presets = keywords::presetsOf(*panel.following.said); presets.arrangement) leaves.arrangement = presets.arrangement->name;
-  return leaves;
-}
-
 bool editLeaves(const Panel& panel, quantify::LeafArrangement& draft) {
   bool changed = combo("##arrangement", keywords::arrangementNames(), draft.arrangement, "–");
   std::string shape = draft.shape;
@@ -218,6 +265,23 @@ bool editLeaves(const Panel& panel, quantify::LeafArrangement& draft) {
   return changed;
 }
 
+/// Brightness and contrast of all photos together: what is hard to see in one is so in the others.
+void lookSliders(const Panel& panel) {
+  gap(panel, 6);
+  PhotoLook look;
+  for (const auto& [view, shown] : panel.state.looks) look = shown;
+  const PhotoLook before = look;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  ImGui::SliderFloat(panel.t("brightness"), &look.brightness, -0.5f, 0.5f, "%.2f");
+  landmark(panel, "brightness");
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  ImGui::SliderFloat(panel.t("contrast"), &look.contrast, 0.4f, 3.0f, "%.2f");
+  landmark(panel, "contrast");
+  if (look != PhotoLook{} && button(panel, "as_taken", Emphasis::Plain, -1)) look = {};
+  if (look == before) return;
+  for (const document::ProjectView& view : panel.project.views) panel.state.looks[view.view.name] = look;
+}
+
 }  // namespace
 
 void wayPanel(const Panel& panel) {
@@ -236,6 +300,8 @@ Taken describePanel(const Panel& panel) {
   if (!panel.following.said || panel.following.said->empty()) return taken;
   for (std::size_t i = 0; i < panel.following.said->size(); ++i)
     if (auto step = traitRow(panel, (*panel.following.said)[i], i)) taken = std::move(step);
+  if (panel.state.hotTrait && !panel.state.factDraft)
+    if (const auto& hot = (*panel.following.said)[*panel.state.hotTrait]; hot.property == "shape" && !hot.value.empty()) leafPreview(panel, hot.value);
   return taken;
 }
 
@@ -293,6 +359,7 @@ Taken photosPanel(const Panel& panel) {
     gap(panel, 4);
     say(panel, NoticeKind::Warned, panel.following.measured.trouble->message);
   }
+  lookSliders(panel);
   if (panel.following.measured.isCurrent())
     for (const auto& report : panel.following.measured.good->cameras)
       fact(panel, report.view.c_str(), filled(panel.t("camera_estimated"), {{"px", fixed(report.typical_px, 2)}, {"deg", fixed(report.turned.degrees(), 1)}}));
@@ -348,7 +415,7 @@ Taken leavesPanel(const Panel& panel) {
     return taken;
   }
   quiet(panel, filled(panel.t("leaves_of"), {{"stem", std::to_string(stem->value)}}));
-  if (button(panel, "leaves_add", Emphasis::Primary, -1)) taken = Step{document::AddLeaves{newLeaves(panel, *stem)}};
+  if (button(panel, "leaves_add", Emphasis::Primary, -1)) taken = Step{document::AddLeaves{newLeaves(panel.following.said, *stem)}};
   gap(panel, 4);
   for (std::size_t i = 0; i < panel.project.leaves.size(); ++i) {
     quantify::LeafArrangement draft = panel.project.leaves[i].arrangement;
@@ -368,6 +435,11 @@ Taken leavesPanel(const Panel& panel) {
       if (panel.state.leavesDraft && panel.state.leavesNumber == static_cast<int>(i) + 1 && !ImGui::IsAnyItemActive()) {
         taken = Step{document::ChangeLeaves{static_cast<int>(i) + 1, *panel.state.leavesDraft}};
         panel.state.leavesDraft.reset();
+      }
+      if (const auto bare = bareStems(panel.project); !bare.empty()) {
+        const std::string label = filled(panel.t("leaves_copy"), {{"n", std::to_string(bare.size())}}) + "##copy";
+        if (ImGui::Button(label.c_str(), {-1, 0})) taken = Step{document::CopyLeaves{static_cast<int>(i) + 1, bare}};
+        landmark(panel, "leaves_copy");
       }
       if (button(panel, "leaves_remove", Emphasis::Plain, -1)) taken = Step{document::RemoveLeaves{static_cast<int>(i) + 1}};
     }

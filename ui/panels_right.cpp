@@ -1,5 +1,4 @@
 #include "base/text.hpp"
-#include "document/command_text.hpp"
 #include "document/lookup.hpp"
 #include "ui/widgets_interop.hpp"
 
@@ -105,6 +104,30 @@ Taken stemFacts(const Panel& panel, StemId id) {
   return taken;
 }
 
+/// Several nodes: what can be done to them together.
+Taken selectionFacts(const Panel& panel) {
+  Taken taken;
+  const auto nodes = panel.state.selection.all();
+  ImGui::PushFont(font(Face::Heading));
+  ImGui::TextUnformatted(filled(panel.t("nodes_selected"), {{"n", std::to_string(nodes.size())}}).c_str());
+  ImGui::PopFont();
+  gap(panel, 4);
+  double width = 0;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(panel.t("width"));
+  ImGui::SameLine(panel.px(90));
+  ImGui::SetNextItemWidth(-1);
+  ImGui::InputDouble("##width", &width, 0, 0, ("%.4g " + panel.project.unit).c_str());
+  if (ImGui::IsItemDeactivatedAfterEdit() && width >= 0) {
+    Step step;
+    for (const NodeId node : nodes) step.emplace_back(document::SetRadius{node, width / 2});
+    taken = std::move(step);
+  }
+  gap(panel, 4);
+  if (button(panel, "key_delete", Emphasis::Plain, -1)) taken = Step{document::RemoveNodes{nodes}};
+  return taken;
+}
+
 void plantFacts(const Panel& panel) {
   heading(panel, "plant");
   fact(panel, panel.t("nodes"), std::to_string(panel.project.nodes.size()));
@@ -137,6 +160,7 @@ Taken inspector(const Panel& panel) {
     plantFacts(panel);
     return std::nullopt;
   }
+  if (!panel.state.selection.others.empty()) return selectionFacts(panel);
   const skeleton3d::ClickedNode& node = panel.project.nodes[*place].node;
   Taken taken = nodeFacts(panel, node);
   segmentFacts(panel, node.id);
@@ -200,97 +224,6 @@ void timeline(const Panel& panel, Area area) {
   const std::string label = end > 0 ? filled(panel.t("time_of"), {{"t", fixed(shown, 1)}, {"end", fixed(end, 1)}}) : panel.t("nothing_grows");
   list.AddText({right + panel.px(20), middle - ImGui::GetFontSize() / 2}, p.quiet, label.c_str());
   ImGui::PopFont();
-}
-
-// ---- sheets ------------------------------------------------------------------------------------------------------------------
-
-namespace {
-
-bool beginSheet(const Panel& panel, const char* key, ImVec2 size) {
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({(screen.x - size.x) / 2, (screen.y - size.y) / 2});
-  ImGui::SetNextWindowSize(size);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {panel.px(22), panel.px(18)});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, panel.px(10));
-  const bool open = ImGui::Begin(key, nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-  ImGui::PopStyleVar(2);
-  return open;
-}
-
-}  // namespace
-
-void shortcutsSheet(const Panel& panel) {
-  static constexpr std::array<std::pair<const char*, const char*>, 17> kRows = {{{"Ctrl+O", "key_open"}, {"Ctrl+S", "key_save"}, {"Ctrl+Shift+S", "key_save_as"}, {"Ctrl+Z", "key_undo"},
-      {"Ctrl+Shift+Z", "key_redo"}, {"Ctrl+H", "key_history"}, {"1 2 3 4", "key_panes"}, {"F", "key_fit"}, {"L", "key_loupe"}, {"P", "key_play"}, {"Esc", "key_escape"}, {"Delete", "key_delete"},
-      {"Shift + click", "key_shift"}, {"wheel", "key_wheel"}, {"middle drag, Space + drag", "key_pan"}, {"drag", "key_drag"}, {"? F1", "key_help"}}};
-  if (beginSheet(panel, "##shortcuts", {panel.px(560), panel.px(484)})) {
-    heading(panel, "shortcuts");
-    for (const auto& [keys, key] : kRows) {
-      ImGui::PushStyleColor(ImGuiCol_Text, panel.palette.accent);
-      ImGui::TextUnformatted(keys);
-      ImGui::PopStyleColor();
-      ImGui::SameLine(panel.px(230));
-      ImGui::TextUnformatted(panel.t(key));
-    }
-    gap(panel, 8);
-    if (button(panel, "close", Emphasis::Primary)) panel.state.shortcuts = false;
-  }
-  ImGui::End();
-}
-
-void historySheet(const Panel& panel) {
-  const auto& entries = panel.session.history().entries();
-  if (beginSheet(panel, "##history", {panel.px(620), panel.px(520)})) {
-    heading(panel, "history");
-    quiet(panel, panel.t("history_help"));
-    gap(panel, 4);
-    ImGui::BeginChild("##steps", {0, -panel.px(46)});
-    ImGui::PushFont(font(Face::Mono));
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      const std::string line = i == 0 ? panel.t("history_start") : document::print(entries[i].step);
-      const std::string label = line.substr(0, 160) + "##" + std::to_string(i);
-      if (i > panel.session.history().position()) ImGui::PushStyleColor(ImGuiCol_Text, panel.palette.quiet);
-      if (ImGui::Selectable(label.c_str(), i == panel.session.history().position())) panel.state.wishes.push_back(WishGoTo{i});
-      if (i > panel.session.history().position()) ImGui::PopStyleColor();
-    }
-    ImGui::PopFont();
-    ImGui::EndChild();
-    if (button(panel, "close", Emphasis::Primary)) panel.state.history = false;
-  }
-  ImGui::End();
-}
-
-void questionSheet(const Panel& panel) {
-  UiState& state = panel.state;
-  const Question question = *state.question;
-  if (beginSheet(panel, "##question", {panel.px(470), panel.px(170)})) {
-    if (const auto* unsaved = std::get_if<Unsaved>(&question)) {
-      heading(panel, "unsaved");
-      words(panel, filled(panel.t("unsaved_text"), {{"name", panel.project.name}}), panel.palette.quiet);
-      gap(panel, 10);
-      if (button(panel, "save", Emphasis::Primary)) {
-        state.question.reset();
-        state.wishes.push_back(WishSave{});
-        if (!panel.session.path().empty()) state.wishes.push_back(unsaved->then);
-      }
-      ImGui::SameLine(0, panel.px(8));
-      if (button(panel, "discard")) {
-        state.question.reset();
-        state.leaveUnsaved = true;
-        state.wishes.push_back(unsaved->then);
-      }
-      ImGui::SameLine(0, panel.px(8));
-      if (button(panel, "cancel")) state.question.reset();
-    } else if (const auto* left = std::get_if<LeftWork>(&question)) {
-      heading(panel, "left_work");
-      words(panel, filled(panel.t("left_work_text"), {{"n", std::to_string(left->actions)}}), panel.palette.quiet);
-      gap(panel, 10);
-      if (button(panel, "recover", Emphasis::Primary)) state.wishes.push_back(WishRecover{left->journal}), state.question.reset();
-      ImGui::SameLine(0, panel.px(8));
-      if (button(panel, "discard")) state.wishes.push_back(WishForget{left->journal}), state.question.reset();
-    }
-  }
-  ImGui::End();
 }
 
 }  // namespace axil::ui

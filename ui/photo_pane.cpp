@@ -1,6 +1,5 @@
-#include "document/lookup.hpp"
 #include "ui/epipolar.hpp"
-#include "ui/widgets_interop.hpp"
+#include "ui/photo_pane_interop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,40 +10,6 @@ namespace {
 using document::NodeId;
 using document::StemId;
 
-/// A photo in its pane: photo px to screen px and back.
-struct Lens {
-  ImVec2 middle;
-  PhotoFrame frame;
-
-  [[nodiscard]] ImVec2 onScreen(PhotoPoint p) const {
-    return {middle.x + static_cast<float>((p.px.x - frame.centre.x) * frame.zoom), middle.y + static_cast<float>((p.px.y - frame.centre.y) * frame.zoom)};
-  }
-  [[nodiscard]] PhotoPoint onPhoto(ImVec2 s) const {
-    return {{frame.centre.x + (s.x - middle.x) / frame.zoom, frame.centre.y + (s.y - middle.y) / frame.zoom}};
-  }
-};
-
-/// One photo pane while it is drawn.
-struct Pane {
-  const Panel& panel;
-  const document::ProjectView& view;
-  const ShownPhoto* photo;
-  Area area;
-  Lens lens;
-  ImDrawList& list;
-
-  [[nodiscard]] const std::string& name() const { return view.view.name; }
-  [[nodiscard]] UiState& state() const { return panel.state; }
-  [[nodiscard]] double reach() const { return panel.px(9) / lens.frame.zoom; }
-};
-
-const skeleton3d::Camera* cameraOf(const Panel& panel, const std::string& view) {
-  if (!panel.following.measured.good) return nullptr;
-  for (const skeleton3d::View& known : panel.following.measured.good->views)
-    if (known.name == view && known.camera.model != skeleton3d::CameraModel::Unknown) return &known.camera;
-  return nullptr;
-}
-
 const skeleton3d::Node* solvedNode(const Panel& panel, NodeId id) {
   if (!panel.following.skeleton.good) return nullptr;
   for (const skeleton3d::Node& node : panel.following.skeleton.good->nodes)
@@ -52,30 +17,19 @@ const skeleton3d::Node* solvedNode(const Panel& panel, NodeId id) {
   return nullptr;
 }
 
-/// Where a node is in this photo: as it is being dragged, as it was clicked, or as the skeleton says.
-struct Seen {
-  PhotoPoint at;
-  bool clicked = true;
-};
-std::optional<Seen> seen(const Pane& pane, NodeId id) {
-  if (const auto& drag = pane.state().drag; drag && drag->moved && drag->node == id && drag->view == pane.name()) return Seen{drag->at};
-  const auto place = document::nodeWithId(pane.panel.project, id);
-  if (!place) return std::nullopt;
-  const auto& clicks = pane.panel.project.nodes[*place].node.clicks;
-  if (const auto click = clicks.find(pane.name()); click != clicks.end()) return Seen{click->second};
-  const skeleton3d::Camera* camera = cameraOf(pane.panel, pane.name());
-  const skeleton3d::Node* solved = solvedNode(pane.panel, id);
-  if (camera == nullptr || solved == nullptr || !skeleton3d::isInFront(*camera, solved->position)) return std::nullopt;
-  return Seen{skeleton3d::project(*camera, solved->position), false};
-}
-
 // ---- drawing ---------------------------------------------------------------------------------------------------------------
 
+/// The photo from `low` to `high`, as a lens shows it.
+void drawPart(const Pane& pane, const Lens& lens, glm::dvec2 low, glm::dvec2 high) {
+  if (pane.photo == nullptr || !pane.photo->tiles) return;
+  for (const PhotoTiles::Piece& piece : pane.photo->tiles->pieces(low, high, lens.frame.zoom, pane.look()))
+    pane.list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(piece.texture)), lens.onScreen({piece.low}), lens.onScreen({piece.high}),
+                       {piece.from.x, piece.from.y}, {piece.to.x, piece.to.y});
+}
+
 void drawPhoto(const Pane& pane) {
-  if (pane.photo == nullptr || pane.photo->texture.id() == 0) return;
-  pane.photo->texture.magnify(pane.lens.frame.zoom > 3 ? Texture::Magnified::Pixels : Texture::Magnified::Smooth);
-  const glm::dvec2 size(pane.photo->size_px);
-  pane.list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(pane.photo->texture.id())), pane.lens.onScreen({{0, 0}}), pane.lens.onScreen({size}));
+  const glm::dvec2 low = pane.lens.onPhoto({pane.area.x, pane.area.y}).px, high = pane.lens.onPhoto({pane.area.x + pane.area.width, pane.area.y + pane.area.height}).px;
+  drawPart(pane, pane.lens, low, high);
 }
 
 void drawSegment(const Pane& pane, const Seen& a, const Seen& b, Colour colour, float width) {
@@ -110,6 +64,27 @@ void drawSelected(const Pane& pane, NodeId id) {
   const ImVec2 s = pane.lens.onScreen(at->at);
   pane.list.AddCircle(s, pane.panel.px(9), rgb(0x000000, 150), 28, pane.panel.px(4));
   pane.list.AddCircle(s, pane.panel.px(9), rgb(0xFFFFFF), 28, pane.panel.px(2));
+}
+
+/// The others of the selection, and what is being gathered into it.
+void drawGathered(const Pane& pane) {
+  for (const NodeId id : pane.state().selection.others)
+    if (const auto at = seen(pane, id)) {
+      const ImVec2 s = pane.lens.onScreen(at->at);
+      pane.list.AddCircle(s, pane.panel.px(7.5f), rgb(0x000000, 150), 24, pane.panel.px(3.2f));
+      pane.list.AddCircle(s, pane.panel.px(7.5f), rgb(0xFFFFFF), 24, pane.panel.px(1.3f));
+    }
+  const auto& band = pane.state().band;
+  if (!band || band->view != pane.name()) return;
+  if (band->kind == Band::Kind::Box) {
+    const ImVec2 a = pane.lens.onScreen(band->points.front()), b = pane.lens.onScreen(band->points.back());
+    const ImVec2 low{std::min(a.x, b.x), std::min(a.y, b.y)}, high{std::max(a.x, b.x), std::max(a.y, b.y)};
+    pane.list.AddRectFilled(low, high, withAlpha(pane.panel.palette.accent, 40));
+    pane.list.AddRect(low, high, pane.panel.palette.accent, 0, 0, pane.panel.px(1.5f));
+    return;
+  }
+  for (const PhotoPoint& p : band->points) pane.list.PathLineTo(pane.lens.onScreen(p));
+  pane.list.PathStroke(pane.panel.palette.accent, ImDrawFlags_Closed, pane.panel.px(1.5f));
 }
 
 void drawLine(const Pane& pane, const std::vector<PhotoPoint>& line, Colour colour, float width) {
@@ -161,19 +136,17 @@ void drawOrigin(const Pane& pane) {
 }
 
 void drawLoupe(const Pane& pane, PhotoPoint at) {
-  if (pane.photo == nullptr || pane.photo->texture.id() == 0) return;
   const float half = pane.panel.px(66), margin = pane.panel.px(10);
   const double magnified = std::max(6.0 * pane.panel.state.scale, 2 * pane.lens.frame.zoom);
   const bool left = ImGui::GetIO().MousePos.x > pane.area.x + pane.area.width / 2;
   const ImVec2 c{left ? pane.area.x + margin + half : pane.area.x + pane.area.width - margin - half, pane.area.y + pane.area.height - margin - half};
-  const glm::dvec2 size(pane.photo->size_px);
-  const auto uv = [&](double sx, double sy) {
-    return ImVec2(static_cast<float>((at.px.x + sx * half / magnified) / size.x), static_cast<float>((at.px.y + sy * half / magnified) / size.y));
-  };
-  pane.list.AddRectFilled({c.x - half, c.y - half}, {c.x + half, c.y + half}, pane.panel.palette.photo, pane.panel.px(8));
-  pane.list.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(pane.photo->texture.id())), {c.x - half, c.y - half}, {c.x + half, c.y + half},
-                            uv(-1, -1), uv(1, 1), rgb(0xFFFFFF), pane.panel.px(8));
-  pane.list.AddRect({c.x - half, c.y - half}, {c.x + half, c.y + half}, pane.panel.palette.accent, pane.panel.px(8), 0, pane.panel.px(2));
+  const ImVec2 low{c.x - half, c.y - half}, high{c.x + half, c.y + half};
+  const Lens loupe{c, {.zoom = magnified, .centre = at.px}};
+  pane.list.AddRectFilled(low, high, pane.panel.palette.photo);
+  pane.list.PushClipRect(low, high, true);
+  drawPart(pane, loupe, loupe.onPhoto(low).px, loupe.onPhoto(high).px);
+  pane.list.PopClipRect();
+  pane.list.AddRect(low, high, pane.panel.palette.accent, 0, 0, pane.panel.px(2));
   for (const auto& [colour, width] : {std::pair{rgb(0x000000, 140), 3.0f}, {rgb(0xFFFFFF), 1.2f}}) {
     pane.list.AddLine({c.x - pane.panel.px(14), c.y}, {c.x + pane.panel.px(14), c.y}, colour, width);
     pane.list.AddLine({c.x, c.y - pane.panel.px(14)}, {c.x, c.y + pane.panel.px(14)}, colour, width);
@@ -203,117 +176,6 @@ void drawTrouble(const Pane& pane) {
                     nullptr, width);
 }
 
-// ---- the mouse -------------------------------------------------------------------------------------------------------------
-
-/// A photo that has not been moved fills its pane.
-PhotoFrame frameOf(const Panel& panel, const std::string& view, glm::dvec2 photo, Area area) {
-  PhotoFrame frame = panel.state.frames[view];
-  if (frame.zoom > 0) return frame;
-  return {.zoom = 0.96 * std::min(area.width / photo.x, area.height / photo.y), .centre = photo / 2.0};
-}
-
-void zoomAndPan(Pane& pane, bool hovered, bool panning) {
-  ImGuiIO& io = ImGui::GetIO();
-  PhotoFrame& frame = pane.lens.frame;
-  if (hovered && io.MouseWheel != 0) {
-    const PhotoPoint under = pane.lens.onPhoto(io.MousePos);
-    frame.zoom = std::clamp(frame.zoom * std::pow(1.2, io.MouseWheel), 0.02, 64.0);
-    frame.centre += under.px - pane.lens.onPhoto(io.MousePos).px;  // what is under the mouse stays there
-    pane.state().frames[pane.name()] = frame;
-  }
-  if (panning && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
-    frame.centre -= glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) / frame.zoom;
-    pane.state().frames[pane.name()] = frame;
-  }
-}
-
-PhotoClick clickAt(const Pane& pane, PhotoPoint at) {
-  return {.view = pane.name(), .at = at, .reach_px = pane.reach(), .picking = ImGui::GetIO().KeyShift ? Picking::OnlyPlace : Picking::PickNodes};
-}
-
-std::string numberOf(std::optional<NodeId> id) { return id ? std::to_string(id->value) : ""; }
-std::string numberOf(std::optional<StemId> id) { return id ? std::to_string(id->value) : ""; }
-
-void sayWhat(const Pane& pane, const ClickMeaning& meaning) {
-  static constexpr std::array<const char*, 6> kKeys = {"click_nothing", "click_select", "click_place", "click_extend", "click_branch", "click_begin"};
-  const char* key = kKeys[static_cast<std::size_t>(meaning.kind)];
-  if (meaning.kind == ClickKind::Nothing && pane.state().way == Way::Stems && !pane.panel.project.stems.empty()) key = "click_nothing_stems";
-  pane.state().status = filled(pane.panel.t(key), {{"node", numberOf(meaning.node)}, {"stem", numberOf(meaning.stem)}, {"view", pane.name()}});
-}
-
-/// Outside the Stems part of the way a click only selects.
-ClickMeaning meaningHere(const Pane& pane, PhotoPoint at) {
-  const ClickMeaning meaning = meaningOf(pane.panel.project, pane.state().selection, clickAt(pane, at));
-  return meaning.kind == ClickKind::Select || pane.state().way == Way::Stems ? meaning : ClickMeaning{};
-}
-
-Taken useTool(const Pane& pane, PhotoPoint at) {
-  UiState& state = pane.state();
-  if (state.tool == PhotoTool::Origin) return document::Step{document::SetOrigin{pane.name(), at}};
-  if (!state.lengthFrom || state.lengthFrom->first != pane.name()) {
-    state.lengthFrom = {pane.name(), at};
-    return std::nullopt;
-  }
-  const PhotoPoint from = state.lengthFrom->second;
-  state.lengthFrom.reset();
-  return document::Step{document::SetScale{pane.name(), from, at, state.knownLength}};
-}
-
-void sayTool(const Pane& pane) {
-  const bool second = pane.state().lengthFrom && pane.state().lengthFrom->first == pane.name();
-  pane.state().status = pane.panel.t(pane.state().tool == PhotoTool::Origin ? "click_origin" : second ? "click_length_to" : "click_length_from");
-}
-
-/// A press on a node may become a drag; only in Stems.
-void maybeDrag(const Pane& pane, PhotoPoint at) {
-  UiState& state = pane.state();
-  if (ImGui::IsItemActivated() && ImGui::IsMouseDown(0) && state.way == Way::Stems && !ImGui::GetIO().KeyShift)
-    if (const auto node = nodeAt(pane.panel.project, clickAt(pane, at))) state.drag = NodeDrag{*node, pane.name(), at};
-  if (!state.drag || state.drag->view != pane.name() || !ImGui::IsMouseDragging(0, pane.panel.px(3))) return;
-  state.drag->moved = true;
-  state.drag->at = at;
-  state.selection.node = state.drag->node;
-  state.status = filled(pane.panel.t("drag_node"), {{"node", std::to_string(state.drag->node.value)}});
-}
-
-Taken released(const Pane& pane, PhotoPoint at) {
-  UiState& state = pane.state();
-  const auto drag = std::exchange(state.drag, std::nullopt);
-  if (drag && drag->moved) return document::Step{document::MoveClick{drag->node, drag->view, drag->at}};
-  const ImVec2 moved = ImGui::GetMouseDragDelta(0, 0);
-  if (std::hypot(moved.x, moved.y) > pane.panel.px(4)) return std::nullopt;
-  if (state.way == Way::Photos && state.tool != PhotoTool::None) return useTool(pane, at);
-  const ClickMeaning meaning = meaningHere(pane, at);
-  if (meaning.kind == ClickKind::Nothing) return std::nullopt;
-  state.selection = meaning.after;
-  return meaning.step.empty() ? Taken{} : Taken{meaning.step};
-}
-
-bool insidePhoto(const Pane& pane, PhotoPoint p) {
-  return pane.photo != nullptr && p.px.x >= 0 && p.px.y >= 0 && p.px.x <= pane.photo->size_px.x && p.px.y <= pane.photo->size_px.y;
-}
-
-Taken mouse(Pane& pane) {
-  ImGui::SetCursorScreenPos({pane.area.x, pane.area.y});
-  ImGui::InvisibleButton("photo", {pane.area.width, pane.area.height}, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
-  const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
-  const bool spaceHeld = ImGui::IsKeyDown(32);
-  const bool panning = active && (ImGui::IsMouseDown(2) || ImGui::IsMouseDown(1) || (spaceHeld && ImGui::IsMouseDown(0)));
-  zoomAndPan(pane, hovered, panning);
-  const PhotoPoint at = pane.lens.onPhoto(ImGui::GetIO().MousePos);
-  if (spaceHeld) return std::nullopt;
-  if (active) maybeDrag(pane, at);
-  const bool isReleased = ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(0);
-  if (isReleased && hovered && (insidePhoto(pane, at) || pane.state().drag)) return released(pane, at);
-  if (isReleased) pane.state().drag.reset();
-  if (!hovered || !insidePhoto(pane, at)) return std::nullopt;
-  pane.state().hover = {pane.name(), at};
-  if (pane.state().drag && pane.state().drag->moved) return std::nullopt;
-  if (pane.state().way == Way::Photos && pane.state().tool != PhotoTool::None) sayTool(pane);
-  else sayWhat(pane, meaningHere(pane, at));
-  return std::nullopt;
-}
-
 /// What a click would add, before it is clicked.
 void drawGhost(const Pane& pane) {
   const auto& hover = pane.state().hover;
@@ -326,7 +188,41 @@ void drawGhost(const Pane& pane) {
   if (meaning.kind != ClickKind::Nothing && meaning.kind != ClickKind::Select) pane.list.AddCircle(mouse, pane.panel.px(4), colour, 16, pane.panel.px(1.6f));
 }
 
+/// A photo that has not been moved fills its pane.
+PhotoFrame frameOf(const Panel& panel, const std::string& view, glm::dvec2 photo, Area area) {
+  PhotoFrame frame = panel.state.frames[view];
+  if (frame.zoom > 0) return frame;
+  return {.zoom = 0.96 * std::min(area.width / photo.x, area.height / photo.y), .centre = photo / 2.0};
+}
+
 }  // namespace
+
+const skeleton3d::Camera* cameraOf(const Panel& panel, const std::string& view) {
+  if (!panel.following.measured.good) return nullptr;
+  for (const skeleton3d::View& known : panel.following.measured.good->views)
+    if (known.name == view && known.camera.model != skeleton3d::CameraModel::Unknown) return &known.camera;
+  return nullptr;
+}
+
+PhotoLook Pane::look() const {
+  const auto known = panel.state.looks.find(name());
+  return known == panel.state.looks.end() ? PhotoLook{} : known->second;
+}
+
+std::optional<Seen> seen(const Pane& pane, NodeId id) {
+  const auto place = document::nodeWithId(pane.panel.project, id);
+  if (!place) return std::nullopt;
+  const auto& clicks = pane.panel.project.nodes[*place].node.clicks;
+  if (const auto click = clicks.find(pane.name()); click != clicks.end()) {
+    const auto& drag = pane.state().drag;
+    const bool moves = drag && drag->moved && drag->view == pane.name() && (drag->node == id || pane.state().selection.has(id));
+    return Seen{{click->second.px + (moves ? drag->moved_px() : glm::dvec2(0, 0))}};
+  }
+  const skeleton3d::Camera* camera = cameraOf(pane.panel, pane.name());
+  const skeleton3d::Node* solved = solvedNode(pane.panel, id);
+  if (camera == nullptr || solved == nullptr || !skeleton3d::isInFront(*camera, solved->position)) return std::nullopt;
+  return Seen{skeleton3d::project(*camera, solved->position), false};
+}
 
 std::array<int, 3> viewsOfPanes(const document::Project& project) {
   static constexpr std::array<std::string_view, 3> kNames = {"front", "right", "top"};
@@ -358,7 +254,7 @@ Taken photoPane(const Panel& panel, int number, Area area) {
   if (size.x <= 0) size = {900, 1200};
   Pane pane{panel, view, photo, area, {{area.x + area.width / 2, area.y + area.height / 2}, frameOf(panel, view.view.name, size, area)}, list};
   ImGui::PushID(number);
-  Taken taken = mouse(pane);
+  Taken taken = photoHand(pane);
   panel.state.landmarks["pane_" + view.view.name] = {area.x, area.y, area.width, area.height};
   panel.state.shownFrames[view.view.name] = {pane.lens.frame, {pane.lens.middle.x, pane.lens.middle.y}};
   list.PushClipRect(low, high, true);
@@ -368,6 +264,7 @@ Taken photoPane(const Panel& panel, int number, Area area) {
   list.PopClipRect();
   const auto chosen = panel.state.selection.node ? stemOf(panel.project, *panel.state.selection.node) : std::nullopt;
   for (const auto& stem : panel.project.stems) drawStem(pane, stem.stem, stem.stem.id == chosen);
+  drawGathered(pane);
   if (panel.state.selection.node) drawSelected(pane, *panel.state.selection.node);
   drawGhost(pane);
   drawOrigin(pane);

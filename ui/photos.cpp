@@ -3,24 +3,9 @@
 #include "document/chain.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <vector>
 
 namespace axil::ui {
 namespace {
-
-/// Every second pixel of every second row: what a machine with small textures gets to see.
-void halve(skeleton3d::Photo& photo) {
-  const int width = photo.width / 2, height = photo.height / 2;
-  std::vector<std::uint8_t> rgb(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const std::size_t from = (static_cast<std::size_t>(2 * y) * static_cast<std::size_t>(photo.width) + static_cast<std::size_t>(2 * x)) * 3;
-      std::copy_n(photo.rgb.begin() + static_cast<std::ptrdiff_t>(from), 3,
-                  rgb.begin() + static_cast<std::ptrdiff_t>((static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 3));
-    }
-  photo = {width, height, std::move(rgb)};
-}
 
 std::filesystem::file_time_type changeOf(const std::filesystem::path& file) {
   std::error_code none;
@@ -33,22 +18,23 @@ Photos::Photos(std::function<void()> answered) : reader_([] { return [](const st
 
 Photos::Read Photos::read(const std::filesystem::path& file) {
   auto photo = skeleton3d::readPhoto(file);
-  if (!photo) return {file, std::nullopt, photo.error()};
-  return {file, std::move(*photo), std::nullopt};
+  if (!photo) return {file, {}, photo.error()};
+  return {file, photoLevels(std::move(*photo)), std::nullopt};
 }
 
 void Photos::take(Read read) {
   ShownPhoto& shown = photos_[read.file];
   shown.trouble = read.trouble;
   shown.changed = changeOf(read.file);
-  if (!read.photo) return;
-  shown.size_px = {read.photo->width, read.photo->height};
-  while (std::max(read.photo->width, read.photo->height) > largestTexture()) halve(*read.photo);
-  shown.texture.set(read.photo->width, read.photo->height, read.photo->rgb, Texture::Smaller::Versions);
+  if (read.levels.empty()) return;
+  shown.size_px = {read.levels.front().width, read.levels.front().height};
+  shown.tiles = std::make_unique<PhotoTiles>(std::move(read.levels));
 }
 
 void Photos::update(const document::OpenProject& open) {
   if (auto read = reader_.take()) take(std::move(*read));
+  for (auto& [file, shown] : photos_)
+    if (shown.tiles) shown.tiles->beginFrame();
   waiting_ = false;
   for (const document::ProjectView& view : open.project.views) {
     if (view.photo.empty()) continue;
@@ -59,6 +45,11 @@ void Photos::update(const document::OpenProject& open) {
     if (!reader_.working()) reader_.ask(file);
     return;
   }
+}
+
+bool Photos::busy() const {
+  const bool sending = std::any_of(photos_.begin(), photos_.end(), [](const auto& photo) { return photo.second.tiles && photo.second.tiles->waiting(); });
+  return reader_.busy() || waiting_ || sending;
 }
 
 const ShownPhoto* Photos::find(const std::filesystem::path& file) const {

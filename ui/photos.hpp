@@ -1,21 +1,22 @@
 #pragma once
 /// \file
-/// The project's photos as textures. They are read in the background, one after another; a photo that cannot be read says why.
+/// The project's photos, ready to be shown. They are read in the background, one after another; a photo that cannot be read says why.
 
 #include "document/project.hpp"
 #include "skeleton3d/photo.hpp"
-#include "ui/textures.hpp"
+#include "ui/photo_tiles.hpp"
 #include "ui/worker.hpp"
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 
 namespace axil::ui {
 
 struct ShownPhoto {
-  Texture texture;
-  glm::ivec2 size_px{0, 0};      ///< of the photo; the texture may be smaller where the machine takes no larger one
+  std::unique_ptr<PhotoTiles> tiles;  ///< null while there is nothing to show
+  glm::ivec2 size_px{0, 0};
   std::optional<Error> trouble;
   std::filesystem::file_time_type changed;
 };
@@ -28,12 +29,12 @@ class Photos {
   void update(const document::OpenProject& open);
   /// Null while it is being read.
   [[nodiscard]] const ShownPhoto* find(const std::filesystem::path& file) const;
-  [[nodiscard]] bool busy() const { return reader_.busy() || waiting_; }
+  [[nodiscard]] bool busy() const;
 
  private:
   struct Read {
     std::filesystem::path file;
-    std::optional<skeleton3d::Photo> photo;
+    std::vector<skeleton3d::Photo> levels;  ///< of the photo; empty where it cannot be read
     std::optional<Error> trouble;
   };
   static Read read(const std::filesystem::path& file);

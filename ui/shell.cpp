@@ -67,6 +67,7 @@ void topBar(const Panel& panel, Area area) {
   if (button(panel, state.theme == Theme::Dark ? "theme_light" : "theme_dark", Emphasis::Quiet)) state.theme = state.theme == Theme::Dark ? Theme::Light : Theme::Dark;
   ImGui::SameLine(0, panel.px(2));
   if (button(panel, "shortcuts", Emphasis::Quiet)) state.shortcuts = !state.shortcuts;
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("F1 · Ctrl+K");
 }
 
 Taken leftColumn(const Panel& panel) {
@@ -91,12 +92,35 @@ Taken pane(const Panel& panel, int number, Area area) {
   return std::nullopt;
 }
 
+/// A border between two parts that can be dragged; gives how far, in px at scale 1.
+enum class Border { Upright, Level };
+float draggedBorder(const Panel& panel, const char* name, Area area, Border border) {
+  ImGui::SetCursorScreenPos({area.x, area.y});
+  ImGui::InvisibleButton(name, {area.width, area.height});
+  landmark(panel, name);
+  const bool held = ImGui::IsItemActive();
+  if (held || ImGui::IsItemHovered()) {
+    ImGui::SetMouseCursor(border == Border::Upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+    ImGui::GetWindowDrawList()->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, panel.palette.accentSoft);
+    panel.state.status = panel.t("drag_border");
+  }
+  if (!held) return 0;
+  const ImVec2 moved = ImGui::GetIO().MouseDelta;
+  return (border == Border::Upright ? moved.x : moved.y) / panel.state.scale;
+}
+
 Taken quadrants(const Panel& panel, Area area) {
   if (panel.state.maximised) return pane(panel, *panel.state.maximised, area);
-  const float gapWidth = panel.px(4), width = (area.width - gapWidth) / 2, height = (area.height - gapWidth) / 2;
+  Layout& layout = panel.state.preferences.layout;
+  const float gapWidth = panel.px(5), roomX = area.width - gapWidth, roomY = area.height - gapWidth;
+  const float width = roomX * layout.across, height = roomY * layout.down;
+  layout.across += draggedBorder(panel, "border_across", {area.x + width, area.y, gapWidth, area.height}, Border::Upright) * panel.state.scale / roomX;
+  layout.down += draggedBorder(panel, "border_down", {area.x, area.y + height, area.width, gapWidth}, Border::Level) * panel.state.scale / roomY;
+  layout = withinReason(layout);
   Taken taken;
   for (int i = 0; i < 4; ++i) {
-    const Area quarter{area.x + static_cast<float>(i % 2) * (width + gapWidth), area.y + static_cast<float>(i / 2) * (height + gapWidth), width, height};
+    const bool isRight = i % 2 == 1, isBelow = i / 2 == 1;
+    const Area quarter{area.x + (isRight ? width + gapWidth : 0), area.y + (isBelow ? height + gapWidth : 0), isRight ? roomX - width : width, isBelow ? roomY - height : height};
     if (Taken one = pane(panel, i, quarter)) taken = std::move(one);
   }
   return taken;
@@ -159,7 +183,8 @@ std::vector<Step> shell(const Panel& panel) {
   std::vector<Step> steps;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   const Palette& p = panel.palette;
-  const float top = panel.px(46), status = panel.px(30), below = panel.px(72), left = panel.px(296), right = panel.px(268), between = panel.px(4);
+  Layout& layout = panel.state.preferences.layout;
+  const float top = panel.px(46), status = panel.px(30), below = panel.px(72), left = panel.px(layout.left), right = panel.px(layout.right), between = panel.px(5);
   const Area barArea{0, 0, screen.x, top};
   const Area statusArea{0, screen.y - status, screen.x, status};
   const Area timeArea{left + between, screen.y - status - below, screen.x - left - between, below};
@@ -176,10 +201,18 @@ std::vector<Step> shell(const Panel& panel) {
   part(panel, "##left", leftArea, p.panel, 12, steps, [&] { return leftColumn(panel); });
   part(panel, "##centre", middle, p.ground, 0, steps, [&] { return centre(panel, middle); });
   part(panel, "##right", rightArea, p.panel, 14, steps, [&] { return inspector(panel); });
+  part(panel, "##left_border", {left, top, between, leftArea.height}, p.ground, 0, steps,
+       [&] { return layout.left += draggedBorder(panel, "border_left", {left, top, between, leftArea.height}, Border::Upright), Taken{}; });
+  part(panel, "##right_border", {rightArea.x - between, top, between, rightArea.height}, p.ground, 0, steps,
+       [&] { return layout.right -= draggedBorder(panel, "border_right", {rightArea.x - between, top, between, rightArea.height}, Border::Upright), Taken{}; });
+  layout = withinReason(layout);
   part(panel, "##time", timeArea, p.panel, 0, steps, [&] { return timeline(panel, timeArea), Taken{}; });
   part(panel, "##status", statusArea, p.ground, 0, steps, [&] { return statusLine(panel, statusArea), Taken{}; });
   if (panel.state.shortcuts) shortcutsSheet(panel);
   if (panel.state.history) historySheet(panel);
+  if (panel.state.tour) tourCard(panel);
+  if (panel.state.palette)
+    if (Taken taken = paletteSheet(panel)) steps.push_back(std::move(*taken));
   if (panel.state.question) questionSheet(panel);
   if (Taken taken = fileDialog(panel)) steps.push_back(std::move(*taken));
   return steps;
@@ -195,6 +228,7 @@ void applyLook(const Palette& p, float scale) {
   style.ScrollbarRounding = 6;
   style.ScrollbarSize = 10;
   style.WindowBorderSize = 0;
+  style.WindowMinSize = {1, 1};
   style.ChildBorderSize = 0;
   style.FramePadding = {11, 6};
   style.ItemSpacing = {8, 6};

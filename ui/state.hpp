@@ -7,6 +7,7 @@
 #include "document/chain.hpp"
 #include "document/command.hpp"
 #include "ui/clicking.hpp"
+#include "ui/preferences.hpp"
 #include "ui/texts.hpp"
 #include "ui/theme.hpp"
 
@@ -38,12 +39,61 @@ struct Orbit {
   glm::dvec2 shift{0, 0};  ///< of the plant in its pane, in shares of the pane's height
 };
 
-/// A node on its way to another place while the button is down.
+/// A node on its way to another place while the button is down; selected nodes go with it.
 struct NodeDrag {
   document::NodeId node;
   std::string view;
-  PhotoPoint at;
+  PhotoPoint from;     ///< its click
+  PhotoPoint grabbed;  ///< where the button was pressed, beside it
+  PhotoPoint at;       ///< where the mouse is
   bool moved = false;
+
+  [[nodiscard]] glm::dvec2 moved_px() const { return at.px - grabbed.px; }
+};
+
+/// Nodes on their way into the selection: a box from corner to corner, or all that a line drawn by hand goes round. In px of the photo.
+struct Band {
+  enum class Kind { Box, Lasso };
+  std::string view;
+  Kind kind = Kind::Box;
+  std::vector<PhotoPoint> points;  ///< a box: where it began and where the mouse is
+};
+
+/// The next node clicked is what a stem is joined or attached to.
+struct Pick {
+  enum class Kind { Join, Attach };
+  Kind kind = Kind::Join;
+  document::StemId stem;
+};
+
+/// What the right button was pressed on.
+struct PlaceMenu {
+  std::string view;
+  PhotoPoint at;
+  double reach_px = 8;
+  std::optional<document::NodeId> node;
+  std::optional<document::StemId> stem;
+};
+
+/// The palette while it is open.
+struct PaletteState {
+  std::string typed;
+  int chosen = 0;
+};
+
+/// How a photo is shown; its pixels stay as they are. 0 and 1: as it was taken.
+struct PhotoLook {
+  float brightness = 0;  ///< -1 to 1, of the whole range
+  float contrast = 1;    ///< 0.2 to 4, about the middle grey
+  friend bool operator==(const PhotoLook&, const PhotoLook&) = default;
+};
+
+/// A fact of the description while its value is written.
+struct FactDraft {
+  std::size_t index = 0;  ///< among the facts of the text
+  std::string value;
+  double low = 0, high = 0;
+  std::string unit;
 };
 
 /// What a click in a photo does while photos are set up.
@@ -68,6 +118,8 @@ struct WishExport {
 };
 struct WishCancelExport {};
 struct WishQuit {};
+/// The sample, and a card that leads through it.
+struct WishTour {};
 /// The answers to a question.
 struct WishRecover {
   std::filesystem::path journal;
@@ -75,7 +127,7 @@ struct WishRecover {
 struct WishForget {
   std::filesystem::path journal;
 };
-using Wish = std::variant<WishSave, WishSaveAs, WishOpen, WishNew, WishUndo, WishRedo, WishGoTo, WishExport, WishCancelExport, WishQuit, WishRecover, WishForget>;
+using Wish = std::variant<WishSave, WishSaveAs, WishOpen, WishNew, WishUndo, WishRedo, WishGoTo, WishExport, WishCancelExport, WishQuit, WishTour, WishRecover, WishForget>;
 
 /// Something the user must decide before it goes on.
 struct Unsaved {
@@ -109,14 +161,21 @@ struct UiState {
 
   Selection selection;
   std::optional<NodeDrag> drag;
+  std::optional<Band> band;
+  std::optional<Pick> pick;
+  std::optional<PlaceMenu> menu;
   std::map<std::string, PhotoFrame> frames;                                     ///< of photos that were moved
   std::map<std::string, std::pair<PhotoFrame, glm::dvec2>> shownFrames;         ///< as drawn, with the middle of the pane on the screen
+  std::map<std::string, PhotoLook> looks;                                       ///< of photos that are shown otherwise than they are
   std::optional<int> maximised;  ///< pane 0 to 3
   std::optional<std::pair<std::string, PhotoPoint>> hover;  ///< which photo the mouse is over, and where
   bool loupe = false;
   bool shortcuts = false;
   bool history = false;
   bool begun = false;  ///< an empty project is being filled: no welcome
+  std::optional<PaletteState> palette;
+  std::optional<int> tour;  ///< which card of the guided tour, from 0
+  Preferences preferences;
 
   PhotoTool tool = PhotoTool::None;
   std::optional<std::pair<std::string, PhotoPoint>> lengthFrom;  ///< first end of a known length
@@ -137,6 +196,7 @@ struct UiState {
   std::string descriptionDraft;
   bool describing = false;         ///< the draft is being written
   std::optional<std::size_t> hotTrait;
+  std::optional<FactDraft> factDraft;
   std::optional<quantify::LeafArrangement> leavesDraft;  ///< while a slider is pulled
   int leavesNumber = 0;                                  ///< which arrangement it is, from 1
   std::string exportFolder;

@@ -4,12 +4,12 @@
 #include "document/journal.hpp"
 #include "document/lookup.hpp"
 #include "document/replay.hpp"
+#include "ui/actions.hpp"
 #include "ui/export_work.hpp"
 #include "ui/fonts_interop.hpp"
 #include "ui/plant_picture.hpp"
 #include "ui/shell.hpp"
 
-#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -60,6 +60,7 @@ struct Studio::Inside {
   ExportState exporting = {};
   bool ended = false;
   std::optional<std::pair<Theme, float>> look = {};
+  Preferences kept = {};  // as they were written last
   // Workers last: their threads end first.
   Photos photos;
   Follower follower;
@@ -69,9 +70,12 @@ struct Studio::Inside {
   Inside(StudioOptions given, Texts words)
       : options(std::move(given)), texts(std::move(words)), session(Session::untitled({.stateFolder = options.stateFolder, .chain = {}})), photos(options.wake), follower(followingWork, options.wake),
         drawer(drawingWork, options.wake), exporter(options.wake) {
-    state.theme = options.theme;
-    state.language = options.language;
-    state.scale = options.scale;
+    state.preferences = readPreferences(options.stateFolder);
+    state.theme = options.theme.value_or(state.preferences.theme.value_or(Theme::Dark));
+    state.language = options.language.value_or(state.preferences.language.value_or(Language::English));
+    state.scale = options.scale.value_or(state.preferences.scale.value_or(options.screenScale));
+    kept = preferencesNow();
+    for (const fs::path& project : state.preferences.recent) fonts.want(project.string());
     state.exportFolder = (fs::current_path() / "plant-out").string();
     fonts.want(texts.allCharacters());
     fonts.want("°±•·–…→English繁體中文简体中文");
@@ -86,13 +90,32 @@ struct Studio::Inside {
 
   // ---- the project -----------------------------------------------------------------------------------------------------------
 
+  /// What the window should remember if it ended now.
+  [[nodiscard]] Preferences preferencesNow() const {
+    Preferences now = state.preferences;
+    now.theme = state.theme;
+    now.language = state.language;
+    now.scale = state.scale;
+    return now;
+  }
+
+  /// Written as soon as something changed and no hand is moving it.
+  void keepPreferences() {
+    if (options.stateFolder.empty() || ImGui::IsAnyMouseDown()) return;
+    if (Preferences now = preferencesNow(); now != kept) {
+      kept = std::move(now);
+      if (const auto written = writePreferences(options.stateFolder, kept); !written) fail(written.error());
+    }
+  }
+
   void changed() {
     ++revision;
     const document::Project& project = session.project();
     fonts.want(project.name);
     fonts.want(project.description);
     for (const auto& view : project.views) fonts.want(view.photo + view.view.name);
-    if (state.selection.node && !document::nodeWithId(project, *state.selection.node)) state.selection = {};
+    for (const document::NodeId node : state.selection.all())
+      if (!document::nodeWithId(project, node)) state.selection.remove(node);
     if (session.journalTrouble()) tell(NoticeKind::Warned, session.journalTrouble()->message);
   }
 
@@ -113,6 +136,8 @@ struct Studio::Inside {
     fresh.scale = state.scale;
     fresh.way = way;
     fresh.loupe = state.loupe;
+    fresh.tour = state.tour;
+    fresh.preferences = std::move(state.preferences);
     state = std::move(fresh);
     following = std::make_shared<Following>();
     drawn.reset();
@@ -126,6 +151,7 @@ struct Studio::Inside {
     auto opened = Session::open(path, {.stateFolder = options.stateFolder, .chain = {}});
     if (!opened) return opened.failure();
     replaceSession(std::move(*opened));
+    if (!isSample()) rememberProject(state.preferences, session.path());
     if (options.stateFolder.empty()) return {};
     if (const auto left = document::leftJournals(options.stateFolder, session.path()); !left.empty()) state.question = LeftWork{left.front().file, left.front().actions};
     return {};
@@ -163,6 +189,7 @@ struct Studio::Inside {
 
   void saveAs(const fs::path& path) {
     if (const auto saved = session.saveAs(path); !saved) return fail(saved.error());
+    rememberProject(state.preferences, session.path());
     tell(NoticeKind::Said, filled(t("saved"), {{"file", session.path().string()}}));
   }
 
@@ -171,6 +198,16 @@ struct Studio::Inside {
     if (!session.isDirty() || state.leaveUnsaved) return true;
     state.question = Unsaved{wish};
     return false;
+  }
+
+  void beginTour(const Wish& wish) {
+    const fs::path sample = samplesFolder() / "lantana" / "lantana.axil";
+    if (session.path() != sample) {
+      if (!mayLeave(wish)) return;
+      if (const auto opened = open(sample); !opened) return fail(opened.error());
+    }
+    state.preferences.toured = true;
+    state.tour = 0;
   }
 
   void step(const Result<void>& moved) {
@@ -205,6 +242,7 @@ struct Studio::Inside {
                             session.close();
                             ended = true;
                           },
+                          [&](const WishTour&) { beginTour(wish); },
                           [&](const WishRecover& w) { recover(w.journal); }, [&](const WishForget& w) { forget(w.journal); }},
                wish);
   }
@@ -221,7 +259,7 @@ struct Studio::Inside {
     if (auto picture = drawer.take()) {
       drawingTrouble = picture->trouble;
       if (picture->trouble) fail(*picture->trouble);
-      else plantTexture.set(picture->image.width_px, picture->image.height_px, picture->image.rgb, Texture::Smaller::None);
+      else plantTexture.set(picture->image.width_px, picture->image.height_px, picture->image.rgb);
     }
     if (auto answer = exporter.take()) finishExport(*answer);
     if (exporting.running) std::tie(exporting.what, exporting.share) = exporter.progress();
@@ -265,70 +303,21 @@ struct Studio::Inside {
     state.playing = false;
   }
 
-  // ---- keys ------------------------------------------------------------------------------------------------------------------
-
-  void escape() {
-    if (state.shortcuts || state.history || state.dialog.kind != DialogKind::None) {
-      state.shortcuts = state.history = false;
-      state.dialog.kind = DialogKind::None;
-    } else if (state.tool != PhotoTool::None) {
-      state.tool = PhotoTool::None;
-      state.lengthFrom.reset();
-    } else if (state.selection.node) {
-      state.selection = {};
-    } else {
-      state.maximised.reset();
-    }
-  }
-
-  void controlKeys(bool shift) {
-    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, true); };
-    if (pressed(GLFW_KEY_Z)) state.wishes.push_back(shift ? Wish{WishRedo{}} : Wish{WishUndo{}});
-    if (pressed(GLFW_KEY_Y)) state.wishes.push_back(WishRedo{});
-    if (ImGui::IsKeyPressed(GLFW_KEY_S, false)) {
-      if (shift) state.dialog = {DialogKind::SaveAs, session.openProject().folder, session.project().name + ".axil", ""};
-      else state.wishes.push_back(WishSave{});
-    }
-    if (ImGui::IsKeyPressed(GLFW_KEY_O, false)) state.dialog = {DialogKind::Open, session.openProject().folder, "", ""};
-    if (ImGui::IsKeyPressed(GLFW_KEY_H, false)) state.history = !state.history;
-    if (ImGui::IsKeyPressed(GLFW_KEY_Q, false)) state.wishes.push_back(WishQuit{});
-  }
-
-  void keys() {
-    const ImGuiIO& io = ImGui::GetIO();
-    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
-    if (pressed(GLFW_KEY_F1)) state.shortcuts = !state.shortcuts;
-    if (pressed(GLFW_KEY_ESCAPE)) escape();
-    if (io.WantTextInput) return;
-    if (io.KeyCtrl) return controlKeys(io.KeyShift);
-    if (pressed(GLFW_KEY_SLASH) && io.KeyShift) state.shortcuts = !state.shortcuts;
-    for (int i = 0; i < 4; ++i)
-      if (pressed(GLFW_KEY_1 + i)) state.maximised = state.maximised == i ? std::nullopt : std::optional(i);
-    if (pressed(GLFW_KEY_L)) state.loupe = !state.loupe;
-    if (pressed(GLFW_KEY_P)) {
-      state.playing = !state.playing;
-      if (state.playing && state.time < 0) state.time = 0;
-    }
-    if (pressed(GLFW_KEY_F)) {
-      state.frames.clear();
-      state.orbit = Orbit{};
-    }
-    if (pressed(GLFW_KEY_DELETE) && state.selection.node) run({document::RemoveNodes{{*state.selection.node}}});
-  }
-
   void draw() {
     const Palette& palette = paletteOf(state.theme);
     if (look != std::pair(state.theme, state.scale)) {
       look = {state.theme, state.scale};
       applyLook(palette, state.scale);
     }
-    keys();
     play();
     const Panel panel{session, session.project(), *following, photos, texts, palette, plantTexture, exporting, state};
-    std::vector<Step> steps = shell(panel);
+    std::vector<Step> steps;
+    if (Taken taken = actOnKeys(panel)) steps.push_back(std::move(*taken));
+    for (Step& taken : shell(panel)) steps.push_back(std::move(taken));
     for (Step& taken : steps) run(std::move(taken));
     askForPlant();
     for (const Wish& wish : std::exchange(state.wishes, {})) carryOut(wish);
+    keepPreferences();
   }
 
   /// What is typed and listed may have characters that no font has yet.

@@ -11,16 +11,18 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 namespace axil::ui {
 
 struct StudioOptions {
-  std::filesystem::path stateFolder;  ///< for journals and locks; empty: none are kept
-  Theme theme = Theme::Dark;
-  Language language = Language::English;
-  float scale = 1;
+  std::filesystem::path stateFolder;  ///< for journals, locks and preferences; empty: none are kept
+  std::optional<Theme> theme;         ///< left out: as last time
+  std::optional<Language> language;
+  std::optional<float> scale;
+  float screenScale = 1;              ///< what the screen asks for where nobody else does
   std::function<void()> wake;         ///< called from other threads when there is something new to draw
 };
 

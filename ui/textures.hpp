@@ -7,7 +7,7 @@
 
 namespace axil::ui {
 
-/// A picture that can be shown; 0 x 0 until `set`. With smaller versions of itself, so that a large photo is smooth when small.
+/// A picture that can be shown; 0 x 0 until `set`.
 class Texture {
  public:
   Texture() = default;
@@ -17,9 +17,8 @@ class Texture {
   Texture& operator=(Texture&& other) noexcept;
   ~Texture();
 
-  enum class Smaller { None, Versions };
   /// Three bytes a pixel, rows from the top.
-  void set(int width, int height, std::span<const std::uint8_t> rgb, Smaller smaller);
+  void set(int width, int height, std::span<const std::uint8_t> rgb);
 
   [[nodiscard]] std::uint32_t id() const { return id_; }
   [[nodiscard]] int width() const { return width_; }
@@ -33,8 +32,5 @@ class Texture {
   int width_ = 0;
   int height_ = 0;
 };
-
-/// The longest side that the drawing context takes.
-[[nodiscard]] int largestTexture();
 
 }  // namespace axil::ui

@@ -81,6 +81,7 @@ void drawIcon(ImDrawList& list, Icon icon, ImVec2 c, float size, Colour colour) 
       list.PathStroke(colour, 0, w);
       list.AddCircleFilled(c, 0.28f * h, colour);
       break;
+    case Icon::Pencil: strokes(list, {{{-0.8f, 0.8f}, {-0.7f, 0.35f}, {0.45f, -0.8f}, {0.8f, -0.45f}, {-0.35f, 0.7f}, {-0.8f, 0.8f}}, {{0.2f, -0.55f}, {0.55f, -0.2f}}}, c, h, colour, w); break;
     case Icon::Expand: strokes(list, {{{-0.2f, -0.8f}, {-0.8f, -0.8f}, {-0.8f, -0.2f}}, {{0.2f, 0.8f}, {0.8f, 0.8f}, {0.8f, 0.2f}}}, c, h, colour, w); break;
   }
 }

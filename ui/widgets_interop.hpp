@@ -13,7 +13,7 @@ namespace axil::ui {
 enum class Face { Body, Small, Heading, Mono };
 [[nodiscard]] ImFont* font(Face face);
 
-enum class Icon { Describe, Photos, Stems, Leaves, Grammar, Grow, Play, Pause, Start, End, Check, Cross, Folder, File, Eye, Expand };
+enum class Icon { Describe, Photos, Stems, Leaves, Grammar, Grow, Play, Pause, Start, End, Check, Cross, Folder, File, Eye, Expand, Pencil };
 void drawIcon(ImDrawList& list, Icon icon, ImVec2 centre, float size, Colour colour);
 
 /// Remembers where the last item is, under its key, so that a replayed session can press it.

@@ -110,7 +110,7 @@ void loop(Studio& studio, GLFWwindow* window) {
 Result<void> runWindow(WindowOptions options) {
   Desktop desktop;
   if (auto opened = desktop.open(); !opened) return opened;
-  if (options.studio.scale <= 0) options.studio.scale = desktop.scale();
+  options.studio.screenScale = desktop.scale();
   options.studio.wake = [] { glfwPostEmptyEvent(); };
   auto studio = Studio::create(std::move(options.studio));
   if (!studio) return studio.failure();

@@ -11,7 +11,7 @@ namespace axil::ui {
 
 struct WindowOptions {
   std::filesystem::path project;   ///< empty: the window begins with what can be opened
-  StudioOptions studio;            ///< `scale` 0: as the screen says
+  StudioOptions studio;            ///< `screenScale` is filled in
 };
 
 /// Opens the window and returns when it is closed. Fails with NoAnswer where no window can be opened (no display, no OpenGL 3.2), and as

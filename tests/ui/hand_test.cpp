@@ -1,0 +1,118 @@
+// What a hand can do with many nodes, with the menu of a place, with the palette and with the borders: through the window's own input.
+#include "document/lookup.hpp"
+#include "ui/headless.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace axil::ui {
+namespace {
+
+const std::filesystem::path kLantana = std::filesystem::path(AXIL_SAMPLES_DIR) / "lantana" / "lantana.axil";
+
+HeadlessStudio opened() {
+  auto headless = HeadlessStudio::open({}, 1200, 800);
+  EXPECT_TRUE(headless) << headless.error().message;
+  if (auto open = headless->studio().open(kLantana); !open) ADD_FAILURE() << open.error().message;
+  return std::move(*headless);
+}
+
+void run(HeadlessStudio& headless, std::string_view lines) {
+  if (auto ran = headless.run(lines); !ran) ADD_FAILURE() << ran.error().message;
+}
+
+PhotoPoint clickOf(HeadlessStudio& headless, int node, const char* view) {
+  const auto& project = headless.studio().session().project();
+  return project.nodes[document::nodeWithId(project, document::NodeId(node)).value()].node.clicks.at(view);
+}
+
+TEST(Hand, ABoxSelectsTheNodesInItAndDeleteRemovesThemAllAsOneStep) {
+  HeadlessStudio headless = opened();
+  const std::size_t nodes = headless.studio().session().project().nodes.size();
+  run(headless, "ui wait\nui key 1\nui drag front 330 400 600 130\n");
+  const std::size_t selected = headless.studio().state().selection.all().size();
+  EXPECT_GT(selected, 2u);
+  EXPECT_LT(selected, nodes);
+  const std::size_t steps = headless.studio().session().history().entries().size();
+  run(headless, "ui key escape\nui key ctrl+a\n");
+  EXPECT_EQ(headless.studio().state().selection.all().size(), nodes);
+  EXPECT_EQ(headless.studio().session().history().entries().size(), steps) << "selecting is no step";
+}
+
+TEST(Hand, SelectedNodesAreDraggedTogetherByTheSameAmount) {
+  HeadlessStudio headless = opened();
+  run(headless, "ui wait\nui key 1\nui press stem_2\nui key a\n");
+  const auto chosen = headless.studio().state().selection.all();
+  ASSERT_GE(chosen.size(), 3u);
+  std::vector<glm::dvec2> before;
+  for (const auto id : chosen) before.push_back(clickOf(headless, id.value, "front").px);
+  const auto at = clickOf(headless, chosen.front().value, "front").px;
+  const std::size_t steps = headless.studio().session().history().entries().size();
+  run(headless, "ui drag front " + std::to_string(at.x) + " " + std::to_string(at.y) + " " + std::to_string(at.x + 40) + " " + std::to_string(at.y - 30) + "\n");
+  EXPECT_EQ(headless.studio().session().history().entries().size(), steps + 1);
+  const glm::dvec2 moved = clickOf(headless, chosen.front().value, "front").px - before.front();
+  EXPECT_NEAR(moved.x, 40, 3);
+  EXPECT_NEAR(moved.y, -30, 3);
+  for (std::size_t i = 0; i < chosen.size(); ++i) EXPECT_NEAR(glm::distance(clickOf(headless, chosen[i].value, "front").px - before[i], moved), 0, 1e-9) << i;
+}
+
+TEST(Hand, TheMenuOfANodeSplitsItsStemAndJoiningPutsItTogetherAgain) {
+  HeadlessStudio headless = opened();
+  run(headless, "ui wait\n");
+  const document::Project before = headless.studio().session().project();
+  const auto& stem = before.stems[document::stemWithId(before, document::StemId(1)).value()].stem;
+  const auto inner = stem.nodes[2];
+  const auto at = clickOf(headless, inner.value, "front").px;
+  run(headless, "ui key 1\nui menu front " + std::to_string(at.x) + " " + std::to_string(at.y) + "\nui press menu_key_split\n");
+  const document::Project split = headless.studio().session().project();
+  ASSERT_EQ(split.stems.size(), before.stems.size() + 1);
+  const auto upper = split.stems.back().stem;
+  const auto tip = clickOf(headless, upper.nodes.back().value, "front").px;
+  run(headless, "ui click front " + std::to_string(tip.x) + " " + std::to_string(tip.y) + "\nui key j\nui click front " + std::to_string(at.x) + " " + std::to_string(at.y) + "\n");
+  const document::Project joined = headless.studio().session().project();
+  ASSERT_EQ(joined.stems.size(), before.stems.size());
+  EXPECT_EQ(joined.stems[document::stemWithId(joined, document::StemId(1)).value()].stem.nodes, stem.nodes);
+}
+
+TEST(Hand, RightClickOnABareStemGivesItTheLeavesOfTheDescription) {
+  HeadlessStudio headless = opened();
+  run(headless, "ui wait\nadd_node 50 front 250 800\nadd_click 50 right 300 800\nstart_branch 9 2\nappend_node 9 50\nui wait\n");
+  const std::size_t leaves = headless.studio().session().project().leaves.size();
+  run(headless, "ui way leaves\nui menu front 250 800\n");
+  const auto& project = headless.studio().session().project();
+  ASSERT_EQ(project.leaves.size(), leaves + 1);
+  const auto& added = project.leaves[leaves].arrangement;
+  EXPECT_EQ(added.stem, document::StemId(9));
+  EXPECT_NE(added.arrangement, "alternate") << "the description says opposite";
+  run(headless, "ui menu front 250 800\n");
+  EXPECT_EQ(headless.studio().session().project().leaves.size(), leaves + 1) << "a stem with leaves keeps those it has";
+}
+
+TEST(Hand, ThePaletteDoesWhatItsNameSays) {
+  HeadlessStudio headless = opened();
+  run(headless, "ui wait\nui key ctrl+k\nui type light\nui key enter\n");
+  EXPECT_EQ(headless.studio().state().theme, Theme::Light);
+  EXPECT_FALSE(headless.studio().state().palette.has_value());
+  run(headless, "ui key ctrl+k\nui type loupe\nui press do_key_loupe\n");
+  EXPECT_TRUE(headless.studio().state().loupe);
+}
+
+TEST(Hand, ABorderThatIsDraggedGivesRoom) {
+  HeadlessStudio headless = opened();
+  const float before = headless.studio().state().preferences.layout.left;
+  run(headless, "ui wait\nui drag_border border_left 60 0\n");
+  EXPECT_NEAR(headless.studio().state().preferences.layout.left, before + 60, 2);
+}
+
+TEST(Hand, TheTourLeadsThroughFiveCardsAndEnds) {
+  auto headless = HeadlessStudio::open({}, 1200, 800);
+  ASSERT_TRUE(headless) << headless.error().message;
+  run(*headless, "ui press tour_offer\nui wait\nui press tour_next\nui press tour_next\nui press tour_next\nui press tour_next\n");
+  EXPECT_EQ(headless->studio().state().way, Way::Grow);
+  run(*headless, "ui press tour_done\n");
+  EXPECT_FALSE(headless->studio().state().tour.has_value());
+}
+
+}  // namespace
+}  // namespace axil::ui
