@@ -143,8 +143,10 @@ std::size_t Engine::State::expectedNumbers() const {
 void Engine::State::noteGrowth() {
   constexpr double spareRoom = 1.06;
   const auto size = static_cast<double>(std::max<std::size_t>(string.size(), 1));
-  grownCodes = spareRoom * static_cast<double>(spare.codes.size()) / size;
-  grownNumbers = spareRoom * static_cast<double>(spare.parameters.size()) / size;
+  const double codes = spareRoom * static_cast<double>(spare.codes.size()) / size, numbers = spareRoom * static_cast<double>(spare.parameters.size()) / size;
+  // A step that grew much is no promise; two of them are.
+  grownCodes = std::min(codes, std::exchange(lastGrownCodes, codes));
+  grownNumbers = std::min(numbers, std::exchange(lastGrownNumbers, numbers));
 }
 
 void Engine::State::notePeak(std::size_t more) { peak = std::max(peak, held(*this) + more); }

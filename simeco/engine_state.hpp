@@ -87,8 +87,9 @@ struct Engine::State {
   std::unique_ptr<Workers> workers;
   std::vector<Lane> lanes;
   std::unique_ptr<Calm> calm;
-  double grownCodes = 0;           ///< modules and parameters that a module became in the last step, and a little more
+  double grownCodes = 0;           ///< modules and parameters that a module became in the last two steps at least, and a little more
   double grownNumbers = 0;
+  double lastGrownCodes = 0, lastGrownNumbers = 0;
   std::atomic<std::size_t> written{0};  ///< bytes that all lanes have written in this step
   bool inPlace = false;            ///< the last step changed `string` itself
   const CompiledRule* lastRule = nullptr;  ///< one that fired lately; for messages

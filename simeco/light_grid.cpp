@@ -15,7 +15,7 @@ constexpr double kCellsAcross = 16;
 constexpr double kExtinction = 0.5;
 }  // namespace
 
-LightGrid::LightGrid(std::span<const ShadePatch> patches, PlantDirection toLight) {
+LightGrid::LightGrid(std::span<const ShadePatch> patches, PlantDirection toLight, double leastCell) {
   const StemFrame frame = firstFrame(toLight);
   light_ = frame.direction.unit();
   across_ = frame.rAxis.unit();
@@ -28,7 +28,8 @@ LightGrid::LightGrid(std::span<const ShadePatch> patches, PlantDirection toLight
       low[i] = std::min(low[i], at), high[i] = std::max(high[i], at);
     }
   corner_ = {low[0], low[1]};
-  cell_ = std::max(high[0] - low[0], high[1] - low[1]) / kCellsAcross;
+  if (patches.empty()) return;
+  cell_ = std::max(std::max(high[0] - low[0], high[1] - low[1]) / kCellsAcross, leastCell);
   if (!(cell_ > 0)) return;  // nothing, or all in one line along the light: a line casts no shade
   for (const ShadePatch& patch : patches) {
     const glm::dvec2 at = cellsAt(patch.at);

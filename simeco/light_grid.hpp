@@ -26,8 +26,9 @@ struct ShadePatch {
 
 class LightGrid {
  public:
-  /// `toLight` points to where the light comes from.
-  LightGrid(std::span<const ShadePatch> patches, PlantDirection toLight);
+  /// `toLight` points to where the light comes from. A cell is at least `leastCell` wide: patches that are larger than a sixteenth of all
+  /// would leave gaps between them.
+  LightGrid(std::span<const ShadePatch> patches, PlantDirection toLight, double leastCell = 0);
 
   /// The share of the full light that reaches `point`, above 0 and at most 1. What is nearer than half a cell along the light is
   /// the place's own surroundings and does not shade it.

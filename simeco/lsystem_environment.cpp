@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace axil::simeco {
@@ -14,7 +15,9 @@ EnvironmentProgram lightProgram(const glm::dvec3& toLight) {
     std::vector<ShadePatch> patches;
     for (const DrawnPatch& patch : communication.patches)
       if (patch.area > 0 && std::isfinite(patch.area)) patches.push_back({{patch.at}, patch.area});
-    const LightGrid grid(patches, PlantDirection::along(toLight));
+    double largest = 0;
+    for (const ShadePatch& patch : patches) largest = std::max(largest, patch.area);
+    const LightGrid grid(patches, PlantDirection::along(toLight), std::sqrt(largest));
     for (Message& message : communication.messages)
       if (!message.parameters.empty()) message.parameters[0] = grid.lightAt({message.frame.position});
     return {};

@@ -90,7 +90,7 @@ void derivation(benchmark::State& state, const Workload& workload) {
   if (!parsed.ok()) return state.SkipWithError(parsed.diagnostics.front().message.c_str());
   DeriveOptions options;
   options.threads = static_cast<int>(state.range(0));
-  double modules = 0, bytes = 0, visited = 0, peak = 0, shortest = 1e9;
+  double modules = 0, bytes = 0, visited = 0, peak = 0, allowed = 1, shortest = 1e9;
   for ([[maybe_unused]] auto _ : state) {
     const auto derived = derive(parsed.grammar, options);
     if (!derived) return state.SkipWithError(derived.error().message.c_str());
@@ -100,12 +100,15 @@ void derivation(benchmark::State& state, const Workload& workload) {
     bytes = stringBytes(derived->string);
     visited = visits(*derived);
     peak = static_cast<double>(derived->peakBytes);
+    allowed = 16 * (modules + static_cast<double>(derived->string.parameters().size()));
   }
   state.counters["modules"] = modules;
   state.counters["modules/s"] = (workload.visitsEachStep != 0 ? visited : modules) / shortest;
   state.counters["GB/s_copy"] = copyBandwidth() / 1e9;
   state.counters["of_bound"] = bytes / copyBandwidth() / shortest;
   state.counters["bytes/module"] = peak / modules;
+  // Of twice 8 bytes a module and 8 a parameter of the final string.
+  state.counters["of_memory"] = peak / allowed;
 }
 
 /// How the time grows with the length of the string: 1 is linear. Figures at two lengths, about thirty times apart.
