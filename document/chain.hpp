@@ -8,6 +8,7 @@
 #include "emit/emit.hpp"
 #include "keywords/keywords.hpp"
 #include "quantify/quantify.hpp"
+#include "simeco/derive.hpp"
 
 #include <filesystem>
 #include <functional>
