@@ -147,8 +147,13 @@ std::size_t ParagraphReader::readCountedWord(std::size_t i, const NumberRange& r
     evidence_ += 1;
     if (counted.piece == "lobe") addLobedShape(i, counted.end, range);
     if (counted.organ == "leaflet") organSeen_ = true;
+    if (counted.organ == "leaflet" && i > 0 && isAny(i - 1, {"digitately", "palmately"})) {
+      Trait type = traitAt(i - 1, counted.end, "leaf", "type");
+      type.value = range.low == 3 && range.high == 3 ? "trifoliolate" : "palmate";
+      keep(std::move(type), true);
+    }
   }
-  last_ = {counted.end, nullptr, {}, false, false};
+  last_ = {counted.end, nullptr, {}, false, false, false};
   return counted.end;
 }
 

@@ -224,6 +224,13 @@ std::vector<glm::dvec3> coloursWhere(const Traits& traits, Keep keep) {
 }  // namespace
 
 Presets withGroups(const Traits& traits, Presets presets) {
+  const auto evident = [&](const char* preset, bool isSet, std::initializer_list<std::string_view> about, const char* property) {
+    const Trait* trait = isSet ? nullptr : traitOf(traits, Organs(about), property);
+    if (trait != nullptr) presets.evidence.emplace(preset, trait->text);
+  };
+  evident("plant.lifeForm", !presets.plant.lifeForm.empty(), {"plant"}, "life form");
+  evident("plant.height_m", presets.plant.height_m.has_value(), {"plant", "stem"}, "height");
+  evident("flower.inflorescence", !presets.flower.inflorescence.empty(), {"inflorescence"}, "type");
   fillLeaf(presets.leaf, traits);
   fillPlant(presets.plant, traits);
   fillFlower(presets.flower, traits);
@@ -275,13 +282,14 @@ std::string leafModelOf(const Traits& traits, const Presets& presets) {
 std::string flowerModelOf(const Traits& traits, const Presets& presets) {
   const FlowerPreset& flower = presets.flower;
   const std::optional<int> petals = petalsOf(flower);
-  const std::string shape = flowerShapeOf(flower, petals);
+  const bool isDouble = std::any_of(traits.begin(), traits.end(), [](const Trait& t) { return t.value == "double" && isHeld(t); });
+  std::string shape = flowerShapeOf(flower, petals);
+  if (isDouble && shape.empty()) shape = "rose";
   const std::string petal = drawnShapeOf(flower.petalShape);
   if (shape.empty() && petal.empty()) return {};
   ModelText model(shape.empty() ? "defaultflower" : shape);
   const auto drawn = organs::flowerShapeNamed(shape);
   if (petals && drawn && drawn->petals != *petals) model.add("petals", std::to_string(*petals));
-  const bool isDouble = std::any_of(traits.begin(), traits.end(), [](const Trait& t) { return t.value == "double" && isHeld(t); });
   if (isDouble && drawn && drawn->whorls == 1) model.add("double", "4");
   model.add("petal", petal);
   if (const auto tube = tubeOf(flower); tube && drawn && drawn->tube > 0.3) model.add("tube", percent(*tube));

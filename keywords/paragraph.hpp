@@ -62,6 +62,7 @@ class ParagraphReader {
     std::string qualifier;
     bool negated = false;
     bool kept = false;
+    bool linked = false;  // it stands with its organ
   };
   struct Measure {
     std::size_t end = 0;
@@ -88,6 +89,7 @@ class ParagraphReader {
   [[nodiscard]] bool isPlaceOnly(std::size_t i) const;
   [[nodiscard]] bool isPlaceOfTermBefore(std::size_t i) const;
   [[nodiscard]] bool startsALine(std::size_t i) const;
+  [[nodiscard]] bool isChained(std::size_t i) const;
   [[nodiscard]] bool isRightBehindOrgan(std::size_t i) const;
   [[nodiscard]] const Concept* ownerOf(const Concept& piece, std::size_t i) const;
   [[nodiscard]] std::string whichBefore(std::size_t i) const;
@@ -111,6 +113,7 @@ class ParagraphReader {
   [[nodiscard]] bool goesElsewhere(std::size_t i, std::size_t end) const;
   [[nodiscard]] bool isOppositeOfLeaves(std::size_t i) const;
   void readTerm(std::size_t i);
+  void startWithPlant(std::size_t i);
   void keepTerm(std::size_t i, const Meaning& meaning, const Concept* organ, bool attributive, const Concept* place, bool placeNamed, const LastTerm& now);
   void extendCompound(const Found& f, const std::string& value);
   [[nodiscard]] Trait traitAt(std::size_t first, std::size_t end, const std::string& organ, const std::string& property) const;

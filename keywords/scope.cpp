@@ -43,6 +43,7 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   const bool isMeasuredItself = found_[i].end < tokens_.size() && tokens_[found_[i].end].kind == TokenKind::Number;  // "in racemes 5-10 cm long"
   std::size_t before = i - 1;
   if (before > 0 && isAny(before, {"the", "its", "each", "a"})) --before;
+  while (before > 0 && isAny(before, {"lower", "upper", "young", "basal", "middle", "old", "lateral", "leaf"})) --before;
   if (isAny(before, {"without", "lacking", "no", "無", "无", "缺"}) && !is(i, "毛")) return true;
   if (before > 0 && is(before, "具") && isAny(before - 1, {"不", "未"})) return true;
   if (isAny(before, {"與", "与"}) && isAny(found_[i].end, {"呈", "成", "夾", "夹", "間", "间", "等", "對", "对", "同"})) return true;
@@ -63,6 +64,13 @@ bool ParagraphReader::isPlaceOfTermBefore(std::size_t i) const {
 
 // A list of lines without full stops: "Leaves: opposite / Flowers: white".
 bool ParagraphReader::startsALine(std::size_t i) const { return tokens_[i].lineBreakBefore && (isHan(i) || isCapital(i)); }
+
+// "Leaves simple, opposite or whorled": one term after another, the first right behind the organ.
+bool ParagraphReader::isChained(std::size_t i) const {
+  std::size_t at = i;
+  while (at > last_.end && (isAny(at - 1, {",", "、", "or", "and", "to", "-", "至", "或", "及", "和", "~"}) || !qualifierOf(tokens_[at - 1].text).empty())) --at;
+  return last_.linked && at == last_.end;
+}
 
 bool ParagraphReader::isRightBehindOrgan(std::size_t i) const {
   std::size_t at = i;

@@ -32,6 +32,10 @@ std::size_t ParagraphReader::readSizes(std::size_t i) {
     const bool isFar = i > scope_.organEnd + 8;
     if (size.dimension.empty() && property == "height" && isFar) continue;
     evidence_ += (size.dimension.empty() ? 0 : 0.5) + (isRightBehindOrgan(size.first) ? 1 : 0);
+    if (organ->name == "plant" && property == "height" && isRightBehindOrgan(size.first)) {  // "tree up to 8 m high"
+      evidence_ += 1;
+      bodySeen_ = true;
+    }
     Trait trait = traitAt(size.first, size.end, organ->name, property);
     const bool onlyUpTo = size.qualifier == "up to" && size.range.low == size.range.high;
     if (!onlyUpTo) trait.low = size.range.low;
@@ -71,7 +75,7 @@ std::size_t ParagraphReader::readAngle(std::size_t i) {
   trait.maximum = range->maximum;
   trait.unit = "°";
   trait.which = scope_.which;
-  evidence_ += 0.5;
+  evidence_ += 1.5;
   keep(std::move(trait), false);
   return end;
 }

@@ -186,9 +186,19 @@ void ParagraphReader::keepTerm(std::size_t i, const Meaning& meaning, const Conc
   keep(std::move(trait), attributive);
 }
 
+// "Biennial, erect, 60-120 cm tall": a description that begins with what only whole plants are.
+void ParagraphReader::startWithPlant(std::size_t i) {
+  const Meaning* duration = found_[i].as("duration");
+  const bool ofYears = duration != nullptr && isOneOf(duration->entry->name, {"annual", "biennial", "perennial", "evergreen", "deciduous"});
+  const bool begins = i == 0 || isSentenceEnd(i - 1);
+  if (!ofYears || !begins || scope_.organInSentence || !isAny(found_[i].end, {",", ";", ".", "，"})) return;
+  scope_ = {&organNamed("plant"), nullptr, nullptr, nullptr, {}, i, true, false, true, false};
+}
+
 void ParagraphReader::readTerm(std::size_t i) {
   const Found& f = found_[i];
   if (!hasTraitMeaning(i) || isOppositeOfLeaves(i)) return;
+  startWithPlant(i);
   if (f.as("organ") != nullptr && nounAt(i) == nullptr) return;
   const Concept* attributive = organAfter(f.end);
   const Concept* organ = attributive != nullptr ? attributive : scope_.organ;
@@ -211,8 +221,9 @@ void ParagraphReader::readTerm(std::size_t i) {
   const bool saysWhere = meaning->category->property == "position" && organ != nullptr;
   if (!accepts(*meaning->category, organ) && (meaning->everyday || saysWhere)) return;
 
-  LastTerm now{f.end, meaning->category, qualifierBefore(i), isNegated(i), false};
-  weighTerm(i, *meaning, attributive != nullptr || named != nullptr || isRightBehindOrgan(i));
+  LastTerm now{f.end, meaning->category, qualifierBefore(i), isNegated(i), false, false};
+  now.linked = attributive != nullptr || named != nullptr || isRightBehindOrgan(i) || isChained(i);
+  weighTerm(i, *meaning, now.linked);
   now.kept = !now.negated;
   if (now.kept && continuesCompound(i, *meaning->category)) extendCompound(f, meaning->entry->name);
   else keepTerm(i, *meaning, organ, attributive != nullptr, place, named != nullptr, now);

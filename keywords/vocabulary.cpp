@@ -31,7 +31,7 @@ std::vector<Source> sources() {
       {"foreign", "", "", data::foreign},
       {"habit", "plant", "", data::habit, false, bodies},
       {"arrangement", "leaf", "", data::arrangement, false, {}, {"vein", "ovary", "thorn"}},
-      {"type", "leaf", "", data::leaf_type, false, {"leaf", "plant", "stem"}},
+      {"type", "leaf", "", data::leaf_type, false, {"leaf", "plant"}},
       {"shape", "leaf", "", data::leaf_shape, false, {}, {"stem", "trunk", "branch", "internode", "petiole", "petiolule", "peduncle", "pedicel", "rachis"}},
       {"apex", "leaf", "apex", data::apex},
       {"base", "leaf", "base", data::base},
