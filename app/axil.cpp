@@ -7,11 +7,17 @@
 
 #include "app/commands.hpp"
 #include "app/hand_over.hpp"
+#include "simeco/report.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace {
 
@@ -33,7 +39,9 @@ struct Command {
 
 const Command kCommands[] = {
     {"keywords", "Read the traits of a botanical description", addKeywords, kLight},
+    {"describe", "Write the grammar of a typical plant from its description alone", addDescribe, kMeasuring},
     {"skeleton", "Solve the 3D skeleton from the clicks of a project (prints skeleton.json)", addSkeleton, kMeasuring},
+    {"calibrate", "Find a lens from photos of a chessboard (prints the camera of a project's views)", addCalibrate, kMeasuring},
     {"quantify", "Measure every segment: length, level, kind, turning angles (prints stems.csv)", addQuantify, kMeasuring},
     {"emit", "Write the grammar of a measured plant", addEmit, kMeasuring},
     {"check", "Say what is wrong with a grammar, all of it at once", addCheck, kLight},
@@ -53,6 +61,18 @@ void add(CLI::App& app, const Command& command, char** argv, int& status) {
   sub->callback([&command, argv, &status] { status = handOver(command.program, argv); });
 }
 
+bool isCommand(const std::string& word) {
+  return std::any_of(std::begin(kCommands), std::end(kCommands), [&](const Command& command) { return word == command.name; });
+}
+
+int refuseUnknown(const std::string& word) {
+  std::vector<std::string_view> names;
+  for (const Command& command : kCommands) names.emplace_back(command.name);
+  const std::string hint = axil::simeco::didYouMean(word, names);
+  std::fprintf(stderr, "axil: error: there is no command '%s'; %s\n", word.c_str(), hint.empty() ? "`axil --help` lists them" : hint.c_str());
+  return kBadUsage;
+}
+
 int runAxil(int argc, char** argv) {
   CLI::App app{"From a botanical description and photographs of a plant to the L-system grammar that grows it."};
   app.name("axil");
@@ -62,10 +82,21 @@ int runAxil(int argc, char** argv) {
   app.require_subcommand(1);
   int status = 0;
   for (const Command& command : kCommands) add(app, command, argv, status);
+  char help[] = "--help";
+  if (argc > 1 && std::string_view(argv[1]) == "help") {  // `axil help grow` is `axil grow --help`
+    argv[1] = argc > 2 ? argv[2] : help;
+    if (argc > 2) argv[2] = help;
+    argc = std::min(argc, 3);
+    argv[argc] = nullptr;
+  }
+  if (argc > 1 && argv[1][0] != '-' && !isCommand(argv[1])) return refuseUnknown(argv[1]);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadUsage;
+    std::fprintf(stderr, "axil: error: %s; `axil%s --help` says how it is called\n", error.what(), argc > 1 && argv[1][0] != '-' ? (std::string(" ") + argv[1]).c_str() : "");
+    return kBadUsage;
   }
   return status;
 }

@@ -1,3 +1,4 @@
+#include "app/cli_interop.hpp"
 #include "app/commands.hpp"
 #include "app/described_grammar.hpp"
 #include "app/environment_options.hpp"
@@ -180,8 +181,8 @@ void addGrow(CLI::App& sub, int& status) {
                    "  axil grow plant.simeco -o windy.png --wind 0.5,0,0 --temperature 15 --obstacle sphere:0.2,0.6,0,0.15");
   addGrammar(sub, command.grammar);
   sub.add_option("-o,--out", command.out, "Where to: its ending chooses .json .glb .obj .ply .png .mp4 .webm; with --frames also a folder")->required();
-  auto* time = sub.add_option("--time", command.time, "Moment of growth in the grammar's time; by default when all is grown")->check(CLI::NonNegativeNumber);
-  sub.add_option("--steps", command.steps, "Stop after this many derivation steps, then let what is there grow out")->check(CLI::NonNegativeNumber)->excludes(time);
+  auto* time = sub.add_option("--time", command.time, "Moment of growth in the grammar's time; by default when all is grown")->check(notNegative());
+  sub.add_option("--steps", command.steps, "Stop after this many derivation steps, then let what is there grow out")->check(notNegative())->excludes(time);
   addPlant(sub, command.plant, "all of them");
   addSeed(sub, command.seed);
   addLimits(sub, command.limits);

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace CLI {
 class App;
@@ -17,7 +18,9 @@ namespace axil::app {
 using AddCommand = void(CLI::App& sub, int& status);
 
 // Weak: a command that needs heavy libraries is linked only into the program that has them (docs/decisions/start.md).
-[[gnu::weak]] AddCommand addKeywords, addSkeleton, addQuantify, addEmit, addCheck, addFmt, addDerive, addGrow, addBuild, addCompletion;
+[[gnu::weak]] AddCommand addKeywords, addSkeleton, addCalibrate, addQuantify, addEmit, addCheck, addFmt, addDerive, addGrow, addBuild, addCompletion, addDescribe;
+/// Draws the contact sheet of `axil keywords --gallery`.
+[[gnu::weak]] int drawShapeGallery(const std::string& out);
 
 /// Does `call` when `sub` is called, after its options are read.
 void setCallback(CLI::App& sub, std::function<void()> call);

@@ -1,8 +1,7 @@
 #include "app/grammar_options.hpp"
 
+#include "app/cli_interop.hpp"
 #include "base/rng.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 
@@ -56,13 +55,13 @@ void addLimits(CLI::App& sub, simeco::Limits& limits) {
   constexpr const char* kGroup = "Limits (what meets one stops with a message)";
   // Two limits: with a number of steps, and until nothing changes any more. Who gives one means both.
   const auto setSteps = [&limits](const std::int64_t& steps) { limits.steps = limits.settlingSteps = steps; };
-  sub.add_option("--max-modules", limits.modules, "Modules in a string")->check(CLI::PositiveNumber)->capture_default_str()->group(kGroup);
-  sub.add_option("--max-memory", limits.bytes, "Memory of the derivation, as 500MB or 2GB")->transform(CLI::AsSizeValue(false))->check(CLI::PositiveNumber)->option_text("SIZE [2GB]")->group(kGroup);
+  sub.add_option("--max-modules", limits.modules, "Modules in a string")->check(aboveZero())->capture_default_str()->group(kGroup);
+  sub.add_option("--max-memory", limits.bytes, "Memory of the derivation, as 500MB or 2GB")->transform(CLI::AsSizeValue(false))->check(aboveZero())->option_text("SIZE [2GB]")->group(kGroup);
   sub.add_option_function<std::int64_t>("--max-steps", setSteps, "Derivation steps")->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40))
       ->option_text("INT [100000; 10000 where nothing says how many]")->group(kGroup);
-  sub.add_option("--max-loop-iterations", limits.loopIterations, "Rounds of all loops in one block of statements")->check(CLI::PositiveNumber)->capture_default_str()->group(kGroup);
+  sub.add_option("--max-loop-iterations", limits.loopIterations, "Rounds of all loops in one block of statements")->check(aboveZero())->capture_default_str()->group(kGroup);
   sub.add_option("--max-expression-depth", limits.expressionDepth, "Nested operations in an expression")->check(CLI::Range(1, 10'000))->capture_default_str()->group(kGroup);
-  sub.add_option("--max-seconds", limits.seconds, "Wall time of the derivation")->check(CLI::PositiveNumber)->capture_default_str()->group(kGroup);
+  sub.add_option("--max-seconds", limits.seconds, "Wall time of the derivation")->check(aboveZero())->capture_default_str()->group(kGroup);
 }
 
 }  // namespace axil::app

@@ -13,10 +13,11 @@ namespace fs = std::filesystem;
 
 int handOver(const char* program, char** argv) {
   std::error_code unknown;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", unknown).parent_path();
+  const fs::path self = fs::read_symlink("/proc/self/exe", unknown), folder = self.parent_path();
   if (unknown) return report({ErrorCode::Unreadable, "cannot tell where this program is, so " + std::string(program) + " cannot be found: " + unknown.message(), {}});
   const fs::path installed = folder.parent_path() / "libexec/axil" / program;
   for (const fs::path& path : {folder / program, installed}) {
+    if (path == self) continue;  // a program that lacks a command of its own would start itself for ever
     ::execv(path.c_str(), argv);
     if (errno != ENOENT && errno != ENOTDIR) return report({ErrorCode::Unreadable, "cannot start " + path.string() + ": " + std::strerror(errno), {}});
   }

@@ -15,6 +15,8 @@ namespace {
 constexpr int maximumSteps = 16;
 /// How much wider a branch is where it leaves its parent.
 constexpr double collarWidening = 0.28;
+/// How fast one that is thicker than its parent widens outside it.
+constexpr double funnelSlope = 0.7;
 
 double angleOf(const glm::dvec3& a, const glm::dvec3& b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
@@ -75,13 +77,19 @@ double smoothStep(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
-/// How wide a tube of `radius` is at `along` from its base on its parent's axis: never wider than the parent inside it.
+/// What of a tube of `radius` its parent hides.
+double hiddenRadius(double radius, const TubeCollar& collar) {
+  return collar.parentRadius <= 0 ? radius : std::min(radius * (1 + collarWidening), std::max(0.98 * collar.parentRadius, 0.3 * radius));
+}
+
+/// How wide a tube of `radius` is at `along` from its base on its parent's axis: never wider than the parent inside it, and a thick
+/// one opens outside like a funnel, so that no blunt base shows at the fork.
 double collaredRadius(double radius, double along, const TubeCollar& collar) {
   if (collar.parentRadius <= 0) return radius;
   const double out = collar.parentRadius;
   const double widening = 1 - smoothStep(out, out + 2.5 * radius, along);
   const double widened = radius * (1 + collarWidening * widening);
-  return along < out ? std::min(widened, std::max(0.98 * collar.parentRadius, 0.3 * radius)) : widened;
+  return std::min(widened, hiddenRadius(radius, collar) + funnelSlope * std::max(along - out, 0.0));
 }
 
 /// Where along the first segment a collar needs rings, as shares of the segment, beside the even steps.
@@ -168,7 +176,7 @@ std::vector<std::vector<TubeRing>> centreLine(const TubePath& path, const TubeDe
     if (startsRun) {
       runs.emplace_back();
       runs.back().push_back(ringAt(nodes[i], nodes[i + 1], cubic, 0, segment));
-      runs.back().back().radius = collaredRadius(nodes[i].radius, 0, collar);
+      if (i == 0) runs.back().back().radius = std::min(collaredRadius(nodes[i].radius, 0, collar), hiddenRadius(nodes[i].radius, path.collar));
     }
     const int steps = stepsFor(cubic, detail);
     for (const double u : stepShares(steps, chords[i].length, nodes[i].radius, collar)) {

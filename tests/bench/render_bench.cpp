@@ -42,6 +42,41 @@ void glbOf131000Segments(benchmark::State& state) {
 }
 BENCHMARK(glbOf131000Segments)->Unit(benchmark::kMillisecond);
 
+/// A tree of 131,071 segments, 131,054 of them with a leaf outlined by the turtle: 1,179,606 modules.
+constexpr const char* kLargeTree = R"(Lsystem: tree
+derivation length: 17
+Axiom: A(1,0.2)
+A(l,w) --> !(w)F(l)[&(45)B(l*0.6,w*0.707)]/(137.5)A(l*0.9,w*0.707)
+B(l,w) --> !(w)F(l)L[-(45)@vC(l*0.6,w*0.707)]C(l*0.9,w*0.707)
+C(l,w) --> !(w)F(l)L[+(45)@vB(l*0.6,w*0.707)]B(l*0.9,w*0.707)
+homomorphism
+L --> [&(60){.+(20)f(0.1)-(20)f(0.1)-(20)f(0.1)+(20)+(160)f(0.1)-(20)f(0.1)}]
+endlsystem
+)";
+
+const simeco::Plant& largeTree() {
+  static const simeco::Plant plant = simeco::plantOfLSystem(simeco::parseLSystem(kLargeTree).grammar).value();
+  return plant;
+}
+
+void largeTreeGeometry(benchmark::State& state) {
+  const simeco::Plant& plant = largeTree();
+  for (auto _ : state) benchmark::DoNotOptimize(meshOf(plant));
+}
+BENCHMARK(largeTreeGeometry)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+
+void largeTreeGlb(benchmark::State& state) {
+  const PlantMesh mesh = meshOf(largeTree()).value();
+  for (auto _ : state) benchmark::DoNotOptimize(glbBytes(mesh));
+}
+BENCHMARK(largeTreeGlb)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+
+void largeTreeObj(benchmark::State& state) {
+  const PlantMesh mesh = meshOf(largeTree()).value();
+  for (auto _ : state) benchmark::DoNotOptimize(objAndMtl(mesh, "tree.mtl"));
+}
+BENCHMARK(largeTreeObj)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+
 void firstPictureOfShrub(benchmark::State& state) {
   const simeco::Plant plant = test::shrub(2);
   for (auto _ : state) benchmark::DoNotOptimize(drawPlant(plant));
