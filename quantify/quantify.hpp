@@ -23,3 +23,4 @@
 #include "quantify/layers.hpp"      // statistics by order and rank, of one plant or many
 #include "quantify/outlook.hpp"     // what the next stages will be like
 #include "quantify/backtest.hpp"    // how well that foretells what is known
+#include "quantify/compare.hpp"     // how near two plants, or two sets of plants, are
