@@ -2,6 +2,7 @@
 #include "render/render.hpp"
 
 #include "render/known_plants.hpp"
+#include "simeco/simeco.hpp"
 
 #include <benchmark/benchmark.h>
 
