@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/hand_over.hpp"
 #include "app/terminal.hpp"
 #include "base/files.hpp"
 #include "keywords/keywords.hpp"
@@ -15,6 +16,7 @@ namespace {
 struct KeywordsCommand {
   std::string file;  ///< "-": stdin
   bool json = false;
+  std::string gallery;  ///< a picture of all shapes goes here; empty: none
 };
 
 constexpr std::uintmax_t kMaximumTextBytes = 100'000'000;
@@ -27,12 +29,22 @@ Result<std::string> textOf(const std::string& file) {
   return text;
 }
 
+/// Drawing needs heavy libraries: where this program does not have them, the one that has goes on.
+int gallery(std::string out) {
+  if (drawShapeGallery != nullptr) return drawShapeGallery(out);
+  std::string words[] = {"axil", "keywords", "--gallery"};
+  char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), out.data(), nullptr};
+  return handOver("axil-draw", arguments);
+}
+
 int run(const KeywordsCommand& command) {
+  if (!command.gallery.empty()) return gallery(command.gallery);
   const auto bytes = textOf(command.file);
   if (!bytes) return report(bytes.error());
-  const auto traits = keywords::readTraits(*bytes);
-  if (!traits) return report({traits.error().code, (command.file == "-" ? "standard input" : command.file) + ": " + traits.error().message, traits.error().details});
-  return print(command.json ? keywords::traitsJson(*traits, keywords::presetsOf(*traits)) : keywords::traitsText(*traits, keywords::presetsOf(*traits)));
+  const auto reading = keywords::readDescription(*bytes);
+  if (!reading) return report({reading.error().code, (command.file == "-" ? "standard input" : command.file) + ": " + reading.error().message, reading.error().details});
+  const keywords::Presets presets = keywords::presetsOf(reading->traits);
+  return print(command.json ? keywords::readingJson(*reading, presets) : keywords::readingText(*reading, presets));
 }
 
 }  // namespace
@@ -40,7 +52,10 @@ int run(const KeywordsCommand& command) {
 void addKeywords(CLI::App& sub, int& status) {
   auto& command = onCall<KeywordsCommand>(sub, status, run);
   addExamples(sub, "  axil keywords description.txt\n  echo 'Shrub; leaves opposite, ovate, 3-8 cm long' | axil keywords - --json");
-  sub.add_option("FILE", command.file, "A description in English or Chinese, UTF-8; - reads standard input")->required();
+  auto* file = sub.add_option("FILE", command.file, "A description in English or Chinese (UTF-8, UTF-16, Big5 or GB18030); - reads standard input");
+  auto* sheet = sub.add_option("--gallery", command.gallery, "Draw a contact sheet of all shapes that words can name into this PNG; no FILE is read");
+  sheet->excludes(file);
+  sub.require_option(1, 0);
   sub.add_flag("--json", command.json, "Print JSON: every trait with its words and their place, and the presets they set");
 }
 

@@ -122,7 +122,7 @@ void ParagraphReader::noteUnknownSegment(std::size_t first, std::size_t end) {
   std::size_t begin = first;
   while (begin < end && tokens_[begin].kind != TokenKind::Number && (found_[begin] || isKnown(begin))) begin = found_[begin] ? std::max(found_[begin].end, begin + 1) : begin + 1;
   std::size_t stop = begin;
-  while (stop < end && !found_[stop] && !isKnown(stop)) ++stop;
+  while (stop < end && !found_[stop] && (isHan(stop) || !isKnown(stop))) ++stop;
   // Only a segment that ends with the unknown words is a statement in a list: ", farinulent," but not ", used by healers in".
   if (begin >= stop || stop != end || stop - begin > 6) return;
   const bool latin = isLatin(tokens_[begin]);

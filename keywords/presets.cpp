@@ -4,6 +4,7 @@
 #include "base/table.hpp"
 #include "base/text.hpp"
 #include "keywords/lexicon.hpp"
+#include "keywords/preset_groups.hpp"
 #include "keywords/vocabulary.hpp"
 #include "organs/leaf.hpp"
 
@@ -45,7 +46,11 @@ const Concept* conceptNamed(std::string_view property, std::string_view name) {
 
 bool isDoubtful(const Trait& trait) { return trait.qualifier == "rarely" || trait.qualifier == "sometimes"; }
 
-bool isLeaf(const Trait& trait, std::string_view property) { return trait.organ == "leaf" && trait.property == property && !isDoubtful(trait); }
+// Of the leaf itself, not of its lobes.
+bool isLeaf(const Trait& trait, std::string_view property) {
+  const bool whole = trait.part.empty() || trait.part == "blade" || trait.part == "surface";
+  return trait.organ == "leaf" && trait.property == property && whole && !isDoubtful(trait);
+}
 
 bool refines(const Trait& precise, const Trait& wide) {
   const Concept* entry = conceptNamed("arrangement", precise.value);
@@ -67,7 +72,7 @@ void setArrangement(Presets& presets, const Traits& traits) {
   const Concept* entry = conceptNamed("arrangement", chosen->value);
   AXIL_ASSERT(entry != nullptr, "a trait names an arrangement that the vocabulary does not have");
   presets.arrangement = presetFrom(*entry);
-  presets.evidence["arrangement"] = chosen->text;
+  remember(presets, "arrangement", *chosen);
 }
 
 void setLeavesPerNode(Presets& presets, const Traits& traits) {
@@ -75,7 +80,7 @@ void setLeavesPerNode(Presets& presets, const Traits& traits) {
   for (const Trait& trait : traits)
     if (isLeaf(trait, "count") && trait.unit == "per node" && trait.low && *trait.low >= 1 && *trait.low <= mostLeavesPerNode) {
       presets.arrangement = withLeavesPerNode(*presets.arrangement, static_cast<int>(std::lround(0.5 * (*trait.low + *trait.high))));
-      presets.evidence["leavesPerNode"] = trait.text;
+      remember(presets, "leavesPerNode", trait);
       return;
     }
 }
@@ -86,13 +91,13 @@ void setShape(Presets& presets, const Traits& traits) {
     const std::string drawn = drawnShapeOf(trait.value);
     if (drawn.empty()) continue;
     presets.leafShape = drawn;
-    presets.evidence["leafShape"] = trait.text;
+    remember(presets, "leafShape", trait);
     return;
   }
 }
 
 std::optional<double> metresOf(const Trait& trait) {
-  const Concept* unit = conceptNamed("unit", trait.unit);
+  const Concept* unit = trait.unit.empty() ? nullptr : conceptNamed("unit", trait.unit);
   if (unit == nullptr || !trait.high) return std::nullopt;
   return 0.5 * (trait.low.value_or(*trait.high) + *trait.high) * numberIn(*unit, "metres");
 }
@@ -101,7 +106,7 @@ void setSize(std::optional<double>& preset, Presets& presets, const char* name, 
   const Trait* size = firstOf(traits, property);
   if (size == nullptr) return;
   preset = metresOf(*size);
-  if (preset) presets.evidence[name] = size->text;
+  if (preset) remember(presets, name, *size);
 }
 
 // "whorled 4", "輪生4": the name, and the number after it.
@@ -166,6 +171,7 @@ Presets presetsOf(const Traits& traits) {
   setShape(presets, traits);
   setSize(presets.leafLength_m, presets, "leafLength_m", traits, "length");
   setSize(presets.leafWidth_m, presets, "leafWidth_m", traits, "width");
+  setGroups(presets, traits);
   return presets;
 }
 

@@ -38,6 +38,8 @@ Json traitJson(const Trait& trait) {
   put(json, "maximum", trait.maximum);
   put(json, "unit", trait.unit);
   put(json, "qualifier", trait.qualifier);
+  put(json, "part", trait.part);
+  put(json, "which", trait.which);
   json["text"] = trait.text;
   json["start"] = trait.start;
   json["end"] = trait.end;
@@ -47,17 +49,79 @@ Json traitJson(const Trait& trait) {
 // Degrees as they were meant: 137.50776405, not the last bits of a conversion.
 double degreesOf(Angle angle) { return roundedTo(angle.degrees(), 8); }
 
+// Every member of the four groups by its name, as evidence names them; one list for JSON and for people.
+template <class Word, class Range>
+void visitGroups(const Presets& p, const Word& word, const Range& range) {
+  word("leaf.type", p.leaf.type);
+  word("leaf.apex", p.leaf.apex);
+  word("leaf.base", p.leaf.base);
+  word("leaf.margin", p.leaf.margin);
+  word("leaf.venation", p.leaf.venation);
+  word("leaf.attachment", p.leaf.attachment);
+  word("leaf.colour", p.leaf.colour);
+  range("leaf.length_m", p.leaf.length_m);
+  range("leaf.width_m", p.leaf.width_m);
+  range("leaf.petiole_m", p.leaf.petiole_m);
+  range("leaf.angle_deg", p.leaf.angle_deg);
+  range("leaf.leaflets", p.leaf.leaflets);
+  word("leaf.leafletShape", p.leaf.leafletShape);
+  range("leaf.leafletLength_m", p.leaf.leafletLength_m);
+  range("leaf.leafletWidth_m", p.leaf.leafletWidth_m);
+  range("leaf.lobes", p.leaf.lobes);
+  word("plant.lifeForm", p.plant.lifeForm);
+  word("plant.duration", p.plant.duration);
+  word("plant.habit", p.plant.habit);
+  word("plant.branching", p.plant.branching);
+  range("plant.height_m", p.plant.height_m);
+  range("plant.branchAngle_deg", p.plant.branchAngle_deg);
+  word("plant.stemSection", p.plant.stemSection);
+  word("flower.form", p.flower.form);
+  word("flower.symmetry", p.flower.symmetry);
+  range("flower.merosity", p.flower.merosity);
+  range("flower.petals", p.flower.petals);
+  range("flower.sepals", p.flower.sepals);
+  range("flower.stamens", p.flower.stamens);
+  word("flower.petalShape", p.flower.petalShape);
+  word("flower.colour", p.flower.colour);
+  range("flower.petalLength_m", p.flower.petalLength_m);
+  range("flower.tubeLength_m", p.flower.tubeLength_m);
+  range("flower.diameter_m", p.flower.diameter_m);
+  word("flower.inflorescence", p.flower.inflorescence);
+  word("flower.position", p.flower.position);
+  range("flower.inflorescenceLength_m", p.flower.inflorescenceLength_m);
+  range("flower.flowersPerInflorescence", p.flower.flowersPerInflorescence);
+  word("fruit.type", p.fruit.type);
+  word("fruit.form", p.fruit.form);
+  word("fruit.shape", p.fruit.shape);
+  word("fruit.colour", p.fruit.colour);
+  range("fruit.length_m", p.fruit.length_m);
+  range("fruit.diameter_m", p.fruit.diameter_m);
+}
+
+Json presetRangeJson(const PresetRange& range) {
+  const auto number = [](double value) { return numberJson(roundedTo(value, 9)); };
+  return {{"minimum", number(range.minimum)}, {"low", number(range.low)}, {"high", number(range.high)}, {"maximum", number(range.maximum)}};
+}
+
 Json presetsJson(const Presets& presets) {
   Json json = Json::object();
-  if (presets.arrangement)
+  if (presets.arrangement) {
     json["arrangement"] = {{"name", presets.arrangement->name},
                            {"leavesPerNode", presets.arrangement->leavesPerNode},
                            {"divergence_deg", numberJson(degreesOf(presets.arrangement->divergence))},
                            {"clustered", presets.arrangement->clustered}};
+    for (const Angle turn : presets.arrangement->cycle) json["arrangement"]["cycle_deg"].push_back(numberJson(degreesOf(turn)));
+  }
   put(json, "leafShape", presets.leafShape);
   if (presets.leafLength_m) json["leafLength_m"] = roundedTo(*presets.leafLength_m, 9);
   if (presets.leafWidth_m) json["leafWidth_m"] = roundedTo(*presets.leafWidth_m, 9);
+  const auto member = [&](const std::string& name) -> Json& { return json[name.substr(0, name.find('.'))][name.substr(name.find('.') + 1)]; };
+  visitGroups(
+      presets, [&](const char* name, const std::string& value) { if (!value.empty()) member(name) = value; },
+      [&](const char* name, const std::optional<PresetRange>& range) { if (range) member(name) = presetRangeJson(*range); });
   json["evidence"] = presets.evidence;
+  json["places"] = Json::object();
+  for (const auto& [name, place] : presets.places) json["places"][name] = {place.start, place.end};
   return json;
 }
 
@@ -80,14 +144,16 @@ std::string traitLine(const Trait& trait) {
   if (!trait.qualifier.empty() && trait.qualifier != "up to") what = trait.qualifier + " " + what;
   std::string quoted = trait.text;
   std::replace(quoted.begin(), quoted.end(), '\n', ' ');
-  return padded(trait.organ, 14) + padded(trait.property, 13) + padded(what, 26) + "\"" + quoted + "\" at " + std::to_string(trait.start) + "-" +
+  std::string organ = trait.which.empty() ? trait.organ : trait.which + " " + trait.organ;
+  if (!trait.part.empty() && trait.part != "blade") organ += " " + trait.part;
+  return padded(organ, 16) + padded(trait.property, 13) + padded(what, 26) + "\"" + quoted + "\" at " + std::to_string(trait.start) + "-" +
          std::to_string(trait.end) + "\n";
 }
 
 std::string presetLines(const Presets& presets) {
   const auto line = [&](const char* name, const std::string& value) {
     const auto evidence = presets.evidence.find(name);
-    return "  " + padded(name, 15) + padded(value, 44) + (evidence == presets.evidence.end() ? "" : "from \"" + evidence->second + "\"") + "\n";
+    return "  " + padded(name, 32) + padded(value, 40) + (evidence == presets.evidence.end() ? "" : "from \"" + evidence->second + "\"") + "\n";
   };
   std::string text;
   if (presets.arrangement)
@@ -96,16 +162,48 @@ std::string presetLines(const Presets& presets) {
   if (!presets.leafShape.empty()) text += line("leafShape", presets.leafShape);
   if (presets.leafLength_m) text += line("leafLength_m", shortest(roundedTo(*presets.leafLength_m, 9)));
   if (presets.leafWidth_m) text += line("leafWidth_m", shortest(roundedTo(*presets.leafWidth_m, 9)));
+  const auto rounded = [](double value) { return shortest(roundedTo(value, 9)); };
+  visitGroups(
+      presets, [&](const char* name, const std::string& value) { if (!value.empty()) text += line(name, value); },
+      [&](const char* name, const std::optional<PresetRange>& r) {
+        if (!r) return;
+        const std::string usual = r->low == r->high ? rounded(r->low) : rounded(r->low) + " to " + rounded(r->high);
+        const bool widens = r->minimum != r->low || r->maximum != r->high;
+        text += line(name, usual + (widens ? ", at most " + rounded(r->minimum) + " to " + rounded(r->maximum) : ""));
+      });
   return text;
+}
+
+Json traitListJson(const Traits& traits) {
+  Json json = Json::array();
+  for (const Trait& trait : traits) json.push_back(traitJson(trait));
+  return json;
+}
+
+Json unknownJson(const UnknownTerm& term) { return {{"organ", term.organ}, {"text", term.text}, {"start", term.start}, {"end", term.end}}; }
+
+Json contradictionJson(const Contradiction& c, const Traits& traits) {
+  const auto place = [&](std::size_t i) { return Json{traits[i].start, traits[i].end}; };
+  return {{"what", c.what}, {"first", place(c.first)}, {"second", place(c.second)}};
 }
 
 }  // namespace
 
 std::string traitsJson(const Traits& traits, const Presets& presets) {
   Json json;
-  json["traits"] = Json::array();
-  for (const Trait& trait : traits) json["traits"].push_back(traitJson(trait));
+  json["traits"] = traitListJson(traits);
   json["presets"] = presetsJson(presets);
+  return json.dump(2) + "\n";
+}
+
+std::string readingJson(const Reading& reading, const Presets& presets) {
+  Json json;
+  json["traits"] = traitListJson(reading.traits);
+  json["presets"] = presetsJson(presets);
+  json["unknown"] = Json::array();
+  for (const UnknownTerm& term : reading.unknown) json["unknown"].push_back(unknownJson(term));
+  json["contradictions"] = Json::array();
+  for (const Contradiction& c : reading.contradictions) json["contradictions"].push_back(contradictionJson(c, reading.traits));
   return json.dump(2) + "\n";
 }
 
@@ -115,6 +213,15 @@ std::string traitsText(const Traits& traits, const Presets& presets) {
   for (const Trait& trait : traits) text += traitLine(trait);
   const std::string lines = presetLines(presets);
   return lines.empty() ? text : text + "These set:\n" + lines;
+}
+
+std::string readingText(const Reading& reading, const Presets& presets) {
+  std::string text = traitsText(reading.traits, presets);
+  if (!reading.unknown.empty()) text += "Seen but not understood:\n";
+  for (const UnknownTerm& term : reading.unknown) text += "  " + padded(term.organ, 16) + "\"" + term.text + "\" at " + std::to_string(term.start) + "-" + std::to_string(term.end) + "\n";
+  if (!reading.contradictions.empty()) text += "The text contradicts itself (both are kept):\n";
+  for (const Contradiction& c : reading.contradictions) text += "  " + c.what + "\n";
+  return text;
 }
 
 }  // namespace axil::keywords

@@ -26,7 +26,11 @@ TEST(PresetsOf, SetsWhatTheTextSaysAndNothingElse) {
   EXPECT_NEAR(*presets.leafLength_m, 0.055, 1e-12);
   EXPECT_NEAR(*presets.leafWidth_m, 0.020, 1e-12);
   EXPECT_EQ(presets.evidence.at("leafLength_m"), "3-8 cm long");
-  EXPECT_EQ(presetsFor("Flowers white."), Presets{});
+  const Presets flowers = presetsFor("Flowers white.");
+  EXPECT_FALSE(flowers.arrangement || flowers.leafLength_m);
+  EXPECT_EQ(flowers.flower.colour, "white");
+  EXPECT_EQ(flowers.leaf, LeafPreset{});
+  EXPECT_EQ(flowers.evidence, (std::map<std::string, std::string>{{"flower.colour", "white"}}));
 }
 
 TEST(PresetsOf, TheMorePreciseArrangementCounts) {
@@ -46,7 +50,30 @@ TEST(PresetsOf, WhorlsTakeTheirNumber) {
 
 TEST(PresetsOf, OtherOrgansSetNothingForTheLeaf) {
   const Presets presets = presetsFor("Petals obovate, 2 cm long; bracts opposite.");
-  EXPECT_EQ(presets, Presets{});
+  EXPECT_FALSE(presets.arrangement || presets.leafLength_m);
+  EXPECT_EQ(presets.leafShape, "");
+  EXPECT_EQ(presets.leaf, LeafPreset{});
+  EXPECT_EQ(presets.flower.petalShape, "obovate");
+}
+
+TEST(PresetsOf, EveryPresetSaysWhichWordsItComesFrom) {
+  const std::string text =
+      "Shrub 1-3 m tall; branches at an angle of 40-60 degrees. Leaves odd-pinnate; petiole 2-3 cm; leaflets 3-5 pairs, ovate, serrate, 2-4 cm. Flowers 5-merous, white, in panicles (8-)10-20(-25) cm "
+      "long; corolla funnelform. Berry globose, red, 5 mm in diameter.";
+  const Presets presets = presetsFor(text);
+  EXPECT_EQ(presets.leaf.type, "odd-pinnate");
+  ASSERT_TRUE(presets.leaf.leaflets && presets.plant.branchAngle_deg && presets.flower.inflorescenceLength_m && presets.fruit.diameter_m);
+  EXPECT_EQ(presets.leaf.leaflets->low, 7) << "three pairs and one at the end";
+  EXPECT_EQ(presets.plant.branchAngle_deg->middle(), 50);
+  EXPECT_NEAR(presets.flower.inflorescenceLength_m->minimum, 0.08, 1e-12);
+  EXPECT_NEAR(presets.flower.inflorescenceLength_m->maximum, 0.25, 1e-12);
+  EXPECT_EQ(presets.flower.form, "funnelform");
+  EXPECT_EQ(presets.fruit.form, "berry");
+  EXPECT_GT(presets.evidence.size(), 12u);
+  for (const auto& [name, words] : presets.evidence) {
+    const PresetEvidence place = presets.places.at(name);
+    EXPECT_EQ(text.substr(place.start, place.end - place.start), words) << name;
+  }
 }
 
 TEST(ArrangementNamed, KnowsEveryNameAndWord) {
@@ -133,9 +160,32 @@ TEST(TraitsJson, IsWhatTheFileFormatSays) {
   "presets": {
     "leafShape": "ovate",
     "leafLength_m": 0.055,
+    "leaf": {
+      "length_m": {
+        "minimum": 0.03,
+        "low": 0.03,
+        "high": 0.08,
+        "maximum": 0.08
+      }
+    },
     "evidence": {
+      "leaf.length_m": "3-8 cm long",
       "leafLength_m": "3-8 cm long",
       "leafShape": "ovate"
+    },
+    "places": {
+      "leaf.length_m": [
+        14,
+        25
+      ],
+      "leafLength_m": [
+        14,
+        25
+      ],
+      "leafShape": [
+        7,
+        12
+      ]
     }
   }
 }

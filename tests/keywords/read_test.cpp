@@ -208,6 +208,57 @@ TEST(ReadTraits, AnEndlessLineIsReadToItsEndInLinearTime) {
   EXPECT_LT(four, 12 * one + 0.05) << "four times the text must not take much more than four times as long";
 }
 
+TEST(ReadDescription, FlagsWhatContradictsItselfAndKeepsBoth) {
+  const Result<Reading> reading = readDescription("Leaves opposite, ovate, 3-5 cm long. Leaves alternate, 12-15 cm long.");
+  ASSERT_TRUE(reading);
+  EXPECT_EQ(reading->traits.size(), 5u);
+  ASSERT_EQ(reading->contradictions.size(), 2u);
+  EXPECT_EQ(reading->contradictions[0].what, "leaf arrangement: \"opposite\" against \"alternate\"");
+  EXPECT_EQ(reading->contradictions[1].what, "leaf length: \"3-5 cm long\" against \"12-15 cm long\"");
+}
+
+TEST(ReadDescription, AlternativesExceptionsAndKindsContradictNothing) {
+  for (const char* text : {"Leaves opposite or alternate.", "Leaves opposite, rarely alternate.", "Leaves opposite, decussate.", "Lower leaves opposite; upper leaves alternate.", "葉對生或輪生。",
+                           "Perennial evergreen herb.", "Leaves 3-5 cm long; leaves 4-6 cm long."}) {
+    const Result<Reading> reading = readDescription(text);
+    ASSERT_TRUE(reading);
+    EXPECT_TRUE(reading->contradictions.empty()) << text;
+  }
+}
+
+TEST(ReadDescription, ADeniedStatementContradictsItsAssertion) {
+  const Result<Reading> reading = readDescription("葉對生，卵形。葉非對生。");
+  ASSERT_TRUE(reading);
+  ASSERT_EQ(reading->contradictions.size(), 1u);
+  EXPECT_EQ(reading->contradictions[0].what, "leaf arrangement: \"對生\" against \"not 對生\"");
+}
+
+TEST(ReadDescription, ListsTermsThatItDoesNotUnderstand) {
+  const Result<Reading> reading = readDescription("Leaves ovate, farinulent, glabrous; petals white, quincuncial.");
+  ASSERT_TRUE(reading);
+  ASSERT_EQ(reading->unknown.size(), 2u);
+  EXPECT_EQ(reading->unknown[0].text, "farinulent");
+  EXPECT_EQ(reading->unknown[0].organ, "leaf");
+  EXPECT_EQ(reading->unknown[1].organ, "petal");
+  const Result<Reading> chinese = readDescription("葉卵形，瓢囊狀，無毛。");
+  ASSERT_TRUE(chinese);
+  ASSERT_EQ(chinese->unknown.size(), 1u);
+  EXPECT_EQ(chinese->unknown[0].text, "瓢囊狀");
+}
+
+TEST(DecodeDescription, KnowsGb18030AndFilesOfSeveralEncodings) {
+  const std::string gb = "\xD2\xB6\xB6\xD4\xC9\xFA\xA3\xAC\xC2\xD1\xD0\xCE\xA1\xA3";  // 叶对生，卵形。
+  const auto text = decodeDescription(gb);
+  ASSERT_TRUE(text) << text.error().message;
+  EXPECT_EQ(text->encoding, "GB18030");
+  EXPECT_EQ(traitsOf(gb), (Lines{"leaf arrangement opposite", "leaf shape ovate"}));
+  const std::string mixed = gb + "\n\xB8\xAD\xB9\xEF\xA5\xCD\n" + "\u82b1\u767d\u8272\u3002";  // and Big5, and UTF-8
+  const auto several = decodeDescription(mixed);
+  ASSERT_TRUE(several) << several.error().message;
+  EXPECT_EQ(several->encoding, "Big5 and GB18030 and UTF-8");
+  EXPECT_EQ(several->utf8, "叶对生，卵形。\n葉對生\n花白色。");
+}
+
 TEST(DecodeDescription, SaysWhichEncodingItMet) {
   const auto text = decodeDescription("\xB8\xAD\xB9\xEF\xA5\xCD");  // 葉對生 in Big5
   ASSERT_TRUE(text) << text.error().message;
