@@ -63,14 +63,8 @@ class ExactText {
   [[nodiscard]] bool hasBranches() const { return layout_.orderOf.size() > 1; }
   [[nodiscard]] bool hasLeaves() const { return !layout_.leafOf.empty(); }
   [[nodiscard]] bool hasStalks() const {
-    const auto rolled = [](int roll) { return roll != 0; };
-    return std::any_of(plan_.kinds.begin(), plan_.kinds.end(), [](const auto& kind) { return kind.petiole > 0; }) || std::any_of(plan_.leafRoll.begin(), plan_.leafRoll.end(), rolled);
-  }
-  [[nodiscard]] std::vector<std::string> shapes() const {
-    std::vector<std::string> names;
-    for (const auto& kind : plan_.kinds)
-      if (std::find(names.begin(), names.end(), kind.shape) == names.end()) names.push_back(kind.shape);
-    return names;
+    const auto some = [](int steps) { return steps != 0; };
+    return plan_.petiole > 0 || std::any_of(plan_.stalked.begin(), plan_.stalked.end(), some) || std::any_of(plan_.leafRoll.begin(), plan_.leafRoll.end(), some);
   }
 
   // ---- what the plant is like, in words ----
@@ -104,26 +98,21 @@ class ExactText {
   // ---- organs ----
 
   void stages() {
-    line("Stem {\nColorFront = RGBA(0.36, 0.42, 0.22, 1);");
+    line("Stem {");
     if (options_.stemModel != EmitOptions{}.stemModel) line("Model = \"" + options_.stemModel + "\";");
     line("Stage 1(length, radius) {\nGrowRate = length;\nBroadenRate = 100*radius;\n}");
     if (hasStalks()) line("Stage 2(length) {\nGrowRate = length;\nBroadenRate = 8*length;\n}");
     line("}");
     if (!hasLeaves()) return;
-    line("Leaf {\nColorFront = RGBA(0.22, 0.5, 0.16, 1);");
-    const auto names = shapes();
-    const bool widths = hasWidths();
-    for (std::size_t s = 0; s < names.size(); ++s) {
-      line("Stage " + std::to_string(s + 1) + (widths ? "(length, width) {" : "(length) {"));
-      if (!names[s].empty()) line("Model = \"" + names[s] + ".i\";");
+    line("Leaf {");
+    for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
+      line("Stage " + std::to_string(s + 1) + "(length) {");
+      if (!plan_.shapes[s].empty()) line("Model = \"" + plan_.shapes[s] + ".i\";");
       line("GrowRate = length;");
-      if (widths) line("BroadenRate = 50*width;");
+      if (plan_.leafWidth > 0) line("BroadenRate = " + number(50 * plan_.leafWidth) + "*length;");
       line("}");
     }
     line("}");
-  }
-  [[nodiscard]] bool hasWidths() const {
-    return std::any_of(plan_.kinds.begin(), plan_.kinds.end(), [](const auto& kind) { return kind.width > 0; });
   }
 
   // ---- tables ----
@@ -189,31 +178,16 @@ class ExactText {
     tableIfNeeded("leafBent", plan_.leafBend);
     tableIfNeeded("leafTurned", plan_.leafAround);
     tableIfNeeded("leafRoll", plan_.leafRoll);
-    leafKindTables();
-  }
-  void leafKindTables() {
-    const auto names = shapes();
-    std::vector<double> blade, width, stalk;
-    std::vector<int> shape;
-    for (const auto& kind : plan_.kinds) {
-      blade.push_back(kind.length);
-      width.push_back(kind.width);
-      stalk.push_back(kind.petiole > 0 ? kind.petiole : 1e-8);
-      shape.push_back(static_cast<int>(std::find(names.begin(), names.end(), kind.shape) - names.begin()));
-    }
-    if (plan_.kinds.size() > 1) table("leafKind", plan_.leafKind);
-    table("blade", blade);
-    if (hasWidths()) table("width", width);
-    if (hasStalks()) table("stalk", stalk);
-    if (names.size() > 1) table("shape", shape);
+    tableIfNeeded("small", plan_.small);
+    tableIfNeeded("stalked", plan_.stalked);
+    if (plan_.shapes.size() > 1) table("shape", plan_.shape);
   }
 
   // ---- rules ----
 
   void axiom() {
-    line("// By order: median internode, bend, insertion and so on, radians. By segment, axis after axis: longer, bent, turned" +
-         std::string(has("thinner") ? ", thinner" : "") + " say by how many steps it differs;");
-    line("// start[axis] is its first segment, side[segment] the first axis at its tip" + std::string(hasLeaves() ? ", leaves[segment] the first leaf." : "."));
+    line("// [order]: medians, radians. [row]: segments, axis after axis; longer, bent, turned: by how many steps one differs. start: an axis' first row;");
+    line("// side" + std::string(hasLeaves() ? ", leaves: the first axis, leaf at its tip." : ": the first axis at its tip."));
     std::string text = "w = ";
     if (layout_.collarLeaves > 0) text += "L(0, 0, 0, " + std::to_string(layout_.collarLeaves) + ", " + number(plan_.usual.front().leafAzimuth) + ") ";
     if (layout_.collarAxes > 0) text += "A(0, 0, 1, " + std::to_string(1 + layout_.collarAxes) + ", 0) ";
@@ -226,7 +200,7 @@ class ExactText {
   }
 
   void apexRule() {
-    line("// Apex of an axis: segment after segment. From " + samples(&OrderUsual::segments) + " segments of " + samples(&OrderUsual::axes) + " axes by order.");
+    line("// Apex of an axis: segment after segment. By order from " + samples(&OrderUsual::segments) + " segments of " + samples(&OrderUsual::axes) + " axes.");
     const std::string rank = "(row-start[axis])";
     std::string length = "internode[order]" + std::string(has("shrink") ? "*shrink[order]^" + rank : "") + plus(plan_.lengthStep, "longer", "row");
     const std::string radius = !plan_.radiusMeasured ? "thickness[order]" : number(plan_.radius) + (has("thinner") ? "*" + number(plan_.taper) + "^thinner[row]" : "");
@@ -244,21 +218,21 @@ class ExactText {
   }
 
   void budRule() {
-    line("// Axillary buds at a node, one after the other: axes of the next order. From " + samples(&OrderUsual::branches) + " insertions by order.");
+    line("// Axillary buds: axes of the next order. From " + samples(&OrderUsual::branches) + " insertions.");
     line("A(0, order, axis, end, around) : axis < end && order+1 < Depth -> [rotr(max(0, insertion[order]" + plus(plan_.angleStep, "bent", "start[axis]") + "))rotu(around" +
          plus(plan_.angleStep, "turned", "start[axis]") + ")A(order+1, axis, start[axis], 0)] A(0, order, axis+1, end, around" + plusUsual("apart") + ") ;");
   }
 
   void leafRules() {
-    line("// Leaf buds at a node. From " + samples(&OrderUsual::leaves) + " leaves by order.");
-    const std::string kind = plan_.kinds.size() > 1 ? "leafKind[leaf]" : "0";
-    const auto names = shapes();
-    for (std::size_t s = 0; s < names.size(); ++s) {
-      const std::string only = names.size() > 1 ? " && shape[" + kind + "] == " + std::to_string(s) : "";
+    line("// Leaf buds. From " + samples(&OrderUsual::leaves) + " leaves.");
+    const std::string blade = number(plan_.leafLength) + (has("small") ? "*" + number(plan_.leafTaper) + "^small[leaf]" : "");
+    const std::string stalk = has("stalked") ? "max(0.00000001, " + number(plan_.petiole) + plus(plan_.lengthStep, "stalked", "leaf") + ")" : number(std::max(1e-8, plan_.petiole));
+    for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
+      const std::string only = plan_.shapes.size() > 1 ? " && shape[leaf] == " + std::to_string(s) : "";
       std::string leaf = "[rotr(max(0, leafAngle[order]" + plus(plan_.leafStep, "leafBent", "leaf") + "))rotu(around" + plus(plan_.leafStep, "leafTurned", "leaf") + ")";
-      if (hasStalks()) leaf += "S(2, stalk[" + kind + "])";
+      if (hasStalks()) leaf += "S(2, " + stalk + ")";
       if (has("leafRoll")) leaf += "rotr(0)rotu(" + plus(plan_.leafStep, "leafRoll", "leaf").substr(1) + ")";
-      leaf += "L(" + std::to_string(s + 1) + ", blade[" + kind + "]" + (hasWidths() ? ", width[" + kind + "]" : "") + ")]";
+      leaf += "L(" + std::to_string(s + 1) + ", " + blade + ")]";
       line("L(0, order, leaf, end, around) : leaf < end" + only + " -> " + leaf + " L(0, order, leaf+1, end, around" + plusUsual("leafApart") + ") ;");
     }
   }

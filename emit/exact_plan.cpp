@@ -96,7 +96,23 @@ class ExactPlanner {
     plan_.angleStep = neatStep(std::min(0.5, 1.2 * allowed / longest));
     // What goes on straight is turned about itself; its side matters by the sine of its bend.
     plan_.leanStep = neatStep(std::min(0.8, 3 * plan_.angleStep));
-    plan_.leafStep = neatStep(std::clamp(4 * choice_.error, 0.02, 0.1));
+    setLeafSteps();
+  }
+
+  /// A blade's tip may be off by as much as a node.
+  void setLeafSteps() {
+    std::vector<double> lengths, ratios, stalks;
+    for (const quantify::LeafMeasure* leaf : layout_.leafOf) {
+      lengths.push_back(leaf->length);
+      stalks.push_back(leaf->petiole);
+      if (leaf->width > 0) ratios.push_back(leaf->width / leaf->length);
+    }
+    if (lengths.empty()) return;
+    plan_.leafLength = neat(*std::max_element(lengths.begin(), lengths.end()));
+    plan_.leafWidth = neat(medianOf(ratios));
+    plan_.petiole = neat(medianOf(stalks));
+    const double allowed = std::max(choice_.error, 0.005) * geometry_.height;
+    plan_.leafStep = neatStep(std::clamp(1.2 * allowed / medianOf(lengths), 0.02, 0.2));
   }
 
   void setUsual() {
@@ -291,18 +307,12 @@ class ExactPlanner {
     const double azimuth = usual.leafAzimuth + usual.leafDivergence * rank + usual.leafApart * place;
     plan_.leafBend.push_back(stepsFor(needed.rotr.radians() - usual.leafAngle, plan_.leafStep));
     plan_.leafAround.push_back(turnSteps(needed.rotu.radians() + twist - azimuth, plan_.leafStep));
-    const double rotr = std::max(0.0, usual.leafAngle + plan_.leafStep * plan_.leafBend.back());
-    const StemFrame blade = childFrame(under, {Angle::fromRadians(rotr), Angle::fromRadians(azimuth + plan_.leafStep * plan_.leafAround.back() - twist)}, ChildKind::Branch);
-    plan_.leafRoll.push_back(turnSteps(signedAngleAbout(blade.direction, blade.adaxial, perpendicularTo(blade.direction, leaf.normal)).radians(), plan_.leafStep));
-    const auto twoDigits = [](double value) {
-      if (value <= 0) return 0.0;
-      const int digits = 1 - static_cast<int>(std::floor(std::log10(value)));
-      return roundedTo(value, std::clamp(digits, 0, 15));
-    };
-    const ExactPlan::LeafKind kind{twoDigits(leaf.length), twoDigits(leaf.width), twoDigits(leaf.petiole), leaf.shape};
-    const auto found = std::find(plan_.kinds.begin(), plan_.kinds.end(), kind);
-    plan_.leafKind.push_back(static_cast<int>(found - plan_.kinds.begin()));
-    if (found == plan_.kinds.end()) plan_.kinds.push_back(kind);
+    plan_.leafRoll.push_back(turnSteps(leaf.roll.radians(), plan_.leafStep));
+    plan_.small.push_back(stepsFor(std::log(leaf.length / plan_.leafLength), std::log(plan_.leafTaper)));
+    plan_.stalked.push_back(stepsFor(leaf.petiole - plan_.petiole, plan_.lengthStep));
+    const auto found = std::find(plan_.shapes.begin(), plan_.shapes.end(), leaf.shape);
+    plan_.shape.push_back(static_cast<int>(found - plan_.shapes.begin()));
+    if (found == plan_.shapes.end()) plan_.shapes.push_back(leaf.shape);
   }
 
   const Measurements& m_;

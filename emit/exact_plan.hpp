@@ -49,15 +49,10 @@ struct ExactPlan {
   bool radiusMeasured = false;
   std::vector<OrderUsual> usual;
   std::vector<int> length, bend, around, thin;  ///< by row; for an axis' first row bend and around are its insertion
-  // Leaves: steps of angleStep from the usual, roll and size classes.
-  std::vector<int> leafBend, leafAround, leafRoll, leafKind;
-  struct LeafKind {
-    double length = 0, width = 0, petiole = 0;
-    std::string shape;
-    friend bool operator==(const LeafKind&, const LeafKind&) = default;
-  };
-  std::vector<LeafKind> kinds;
-  double leafStep = 0;
+  // Leaves: steps of leafStep from the usual; a blade is leafLength * leafTaper^small long, a stalk petiole + lengthStep * stalked.
+  std::vector<int> leafBend, leafAround, leafRoll, small, stalked, shape;
+  double leafStep = 0, leafLength = 0, leafTaper = 0.85, leafWidth = 0, petiole = 0;  ///< leafWidth over length; 0: unknown
+  std::vector<std::string> shapes;
   double height = 0;
   double worst = 0, mean = 0;            ///< distance of nodes, of the height
   glm::dvec3 direction{0, 1, 0}, position{0, 0, 0};

@@ -205,6 +205,28 @@ TEST(Dialects, RulesWithTablesConditionsAndArgumentsMeanTheSame) {
   expectSameDrawing(grown, drawnByLpy({valueOf(inDialect(grammar, Dialect::LPy)).text}).at(0), 1);
 }
 
+TEST(Dialects, TheExactStructuredGrammarMeansTheSame) {
+  const std::uint64_t seed = 76;
+  std::cout << "seed " << seed << "\n";
+  Rng rng(seed);
+  std::vector<Drawing> grown;
+  std::vector<double> heights;
+  std::vector<std::string> programs;
+  for (int i = 0; i < 8; ++i) {
+    SCOPED_TRACE(i);
+    const Skeleton plant = test::randomTree(rng, {.segments = 40, .leaves = 5 * i, .collarBranches = i % 3});
+    const simeco::Grammar grammar = valueOf(structuredGrammar(valueOf(quantify::measure(plant)), {}, {.form = StructuredForm::Exact}));
+    grown.push_back(drawingOf(grownUp(grammar)));
+    heights.push_back(test::heightOf(plant));
+    expectSameDrawing(grown.back(), drawnByCpfg(valueOf(inDialect(grammar, Dialect::Cpfg))), heights.back());
+    programs.push_back(valueOf(inDialect(grammar, Dialect::LPy)).text);
+    EXPECT_TRUE(inDialect(grammar, Dialect::Mtg));
+  }
+  const std::vector<Drawing> drawn = drawnByLpy(programs);
+  ASSERT_EQ(drawn.size(), grown.size());
+  for (std::size_t i = 0; i < grown.size(); ++i) expectSameDrawing(grown[i], drawn[i], heights[i]);
+}
+
 TEST(Dialects, AStochasticGrammarBecomesOneOfTheSameFamily) {
   const simeco::Grammar grammar = parsed(R"(EcoSystem 1.1 "chance" {
     Plant "p" {
