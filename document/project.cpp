@@ -213,7 +213,7 @@ Json cameraJson(const Camera& camera, const Extras& extras) {
   Json json = {{"model", modelName(camera.model)}};
   if (camera.focal_px) json["focal_px"] = {camera.focal_px->x, camera.focal_px->y};
   if (camera.model != CameraModel::Unknown || camera.centre_px != glm::dvec2{0, 0}) json["centre_px"] = {camera.centre_px.x, camera.centre_px.y};
-  if (camera.model == CameraModel::Perspective) json["distortion"] = camera.distortion;
+  if (camera.model == CameraModel::Perspective || camera.distortion != Camera{}.distortion) json["distortion"] = camera.distortion;
   if (camera.model == CameraModel::Orthographic) json["scale_px_per_unit"] = camera.scale_px_per_unit;
   if (camera.model != CameraModel::Unknown) {
     json["rotation"] = rotationJson(camera.rotation);

@@ -50,7 +50,7 @@ Result<BundleCamera> unknownFrom(const View& view, const UnknownCameraHints& hin
   if (!nominal) return viewFault(ErrorCode::BadInput, view.name, "its name does not say where it looks; call it front, right, top, back or left");
   if (view.size_px.x <= 0 || view.size_px.y <= 0) return viewFault(ErrorCode::BadInput, view.name, "the size of its photo is unknown; give the photo or size_px");
   camera.nominal = *nominal;
-  camera.view.camera.centre_px = glm::dvec2(view.size_px) / 2.0;
+  if (view.camera.centre_px == glm::dvec2{0, 0}) camera.view.camera.centre_px = glm::dvec2(view.size_px) / 2.0;
   guessFocal(camera, options);
   return camera;
 }

@@ -20,6 +20,7 @@
 #include "skeleton3d/uncertainty.hpp"  // covariance of nodes, lengths, angles
 #include "skeleton3d/estimate.hpp"  // cameras nobody calibrated
 #include "skeleton3d/calibrate.hpp"  // a lens from photos of a chessboard
+#include "skeleton3d/guides.hpp"    // where a click of one view can be in another
 #include "skeleton3d/solve.hpp"     // clicks to nodes
 #include "skeleton3d/tree.hpp"      // nodes and stems to one checked tree
 #include "skeleton3d/report.hpp"    // what a person wants to see of it

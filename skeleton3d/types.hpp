@@ -35,7 +35,7 @@ enum class CameraModel {
 struct Camera {
   CameraModel model = CameraModel::Unknown;
   std::optional<glm::dvec2> focal_px;            ///< fx, fy; perspective, or a hint for an unknown camera
-  glm::dvec2 centre_px{0, 0};                    ///< cx, cy
+  glm::dvec2 centre_px{0, 0};                    ///< cx, cy; for an unknown camera (0, 0) is the middle of the photo
   std::array<double, 5> distortion{0, 0, 0, 0, 0};  ///< k1, k2, p1, p2, k3 (perspective)
   double scale_px_per_unit = 0;                  ///< s; orthographic
   glm::dmat3 rotation{1.0};                      ///< GLM is column-major: rotation[column][row]

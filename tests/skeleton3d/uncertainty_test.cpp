@@ -112,10 +112,10 @@ TEST(Uncertainty, CoversTheTruthWithKnownCameras) {
 
 TEST(Uncertainty, CoversTheTruthWithUnknownCameras) {
   std::printf("seeds from %d\n", static_cast<int>(kFirstSeed));
-  unknownCameras(150, {.noise_px = 0.5}).expectTrue("unknown, focal given, 0.5 px");
-  unknownCameras(150, {.noise_px = 3}).expectTrue("unknown, focal given, 3 px");
-  unknownCameras(150, {.noise_px = 1, .focalError = 0.02}).expectTrue("unknown, EXIF focal, 1 px");
-  unknownCameras(400, {.noise_px = 1, .focalError = 0.02, .nodes = 16}).expectTrue("unknown, EXIF focal, 1 px, 16 nodes");
+  unknownCameras(100, {.noise_px = 0.5}).expectTrue("unknown, focal given, 0.5 px");
+  unknownCameras(100, {.noise_px = 3}).expectTrue("unknown, focal given, 3 px");
+  unknownCameras(100, {.noise_px = 1, .focalError = 0.02}).expectTrue("unknown, EXIF focal, 1 px");
+  unknownCameras(300, {.noise_px = 1, .focalError = 0.02, .nodes = 16}).expectTrue("unknown, EXIF focal, 1 px, 16 nodes");
 }
 
 }  // namespace
