@@ -1,3 +1,4 @@
+#include "app/cli_interop.hpp"
 #include "app/commands.hpp"
 #include "app/grammar_options.hpp"
 #include "app/terminal.hpp"
@@ -147,7 +148,7 @@ void addDerive(CLI::App& sub, int& status) {
   auto& command = onCall<DeriveCommand>(sub, status, run);
   addExamples(sub, "  axil derive plant.simeco --steps 3\n  axil derive plant.simeco --counts    # modules after every step, letters of the last string");
   addGrammar(sub, command.grammar);
-  sub.add_option("--steps", command.steps, "Derivation steps; by default the file's own length, else until nothing changes")->check(CLI::NonNegativeNumber);
+  sub.add_option("--steps", command.steps, "Derivation steps; by default the file's own length, else until nothing changes")->check(notNegative());
   addPlant(sub, command.plant, "the first");
   addSeed(sub, command.seed);
   addLimits(sub, command.limits);

@@ -32,7 +32,9 @@ class Estimate {
  public:
   Estimate(const Grammar& grammar, const RuleSet& rules) : grammar_(grammar) {
     for (const Production& p : rules.productions)
-      if (!p.predecessor.empty()) byLetter_[p.predecessor[0].letter].push_back(&p);
+      if (!p.predecessor.empty()) first_.try_emplace(keyOf(p.predecessor[0]), &p);
+    for (const auto& [key, production] : first_)
+      if (key.number) firstNumbered(key, production);
     for (const Module& m : rules.axiom) axiom_.push_back({symbolOf(m), 1});
     for (std::size_t i = 0; i < symbols_.size() && symbols_.size() < kMostSymbols; ++i) addSuccessors(i);
   }
@@ -95,10 +97,18 @@ class Estimate {
   }
 
  private:
-  std::size_t symbolOf(const Module& m) {
+  [[nodiscard]] SymbolKey keyOf(const Module& m) const {
     SymbolKey key{m.letter, m.arguments.size(), {}};
     if (grammar_.language == Language::SimEco && !m.arguments.empty())
       if (const auto* n = std::get_if<Number>(&grammar_.at(m.arguments[0]).node)) key.number = n->value;
+    return key;
+  }
+  void firstNumbered(const SymbolKey& key, const Production* production) {
+    const auto [found, isNew] = numbered_.try_emplace({key.letter, key.arguments, {}}, production);
+    if (!isNew) found->second = std::min(found->second, production);
+  }
+  std::size_t symbolOf(const Module& m) {
+    const SymbolKey key = keyOf(m);
     const auto [found, isNew] = index_.try_emplace(key, symbols_.size());
     if (isNew) {
       symbols_.push_back(key);
@@ -107,20 +117,24 @@ class Estimate {
     }
     return found->second;
   }
-  /// The first rule for the symbol, when it certainly fires.
+  /// The first rule for the symbol, when it certainly fires. All rules stand in one row, so the earlier one has the lower address.
   [[nodiscard]] const Production* ruleFor(const SymbolKey& key) const {
-    const auto list = byLetter_.find(key.letter);
-    if (list == byLetter_.end()) return nullptr;
-    for (const Production* p : list->second) {
-      const Module& m = p->predecessor[0];
-      if (m.arguments.size() != key.arguments) continue;
-      const bool bare = !p->condition && p->left.empty() && p->right.empty() && p->predecessor.size() == 1 && p->before.empty();
-      const auto* number = m.arguments.empty() ? nullptr : std::get_if<Number>(&grammar_.at(m.arguments[0]).node);
-      if (number != nullptr && key.number && number->value != *key.number) continue;
-      if (number != nullptr && !key.number) return nullptr;  // it depends on the value
-      return bare && furtherAreNames(m) ? p : nullptr;
+    const SymbolKey any{key.letter, key.arguments, {}};
+    const Production* rule = ruleIn(first_, any);
+    if (key.number) {
+      const Production* exact = ruleIn(first_, key);
+      if (rule == nullptr || (exact != nullptr && exact < rule)) rule = exact;
+    } else if (const Production* numbered = ruleIn(numbered_, any); numbered != nullptr && (rule == nullptr || numbered < rule)) {
+      return nullptr;  // it depends on the value
     }
-    return nullptr;
+    if (rule == nullptr) return nullptr;
+    const bool bare = !rule->condition && rule->left.empty() && rule->right.empty() && rule->predecessor.size() == 1 && rule->before.empty();
+    return bare && furtherAreNames(rule->predecessor[0]) ? rule : nullptr;
+  }
+  using RuleMap = std::map<SymbolKey, const Production*>;
+  static const Production* ruleIn(const RuleMap& rules, const SymbolKey& key) {
+    const auto found = rules.find(key);
+    return found == rules.end() ? nullptr : found->second;
   }
   [[nodiscard]] bool furtherAreNames(const Module& m) const {
     return m.arguments.size() < 2 || std::all_of(m.arguments.begin() + 1, m.arguments.end(), [&](ExprId id) { return std::holds_alternative<Name>(grammar_.at(id).node); });
@@ -135,7 +149,8 @@ class Estimate {
   }
 
   const Grammar& grammar_;
-  std::map<std::string, std::vector<const Production*>, std::less<>> byLetter_;
+  RuleMap first_;     ///< of each predecessor the first rule
+  RuleMap numbered_;  ///< of each letter the first rule for a literal number
   std::map<SymbolKey, std::size_t> index_;
   std::vector<SymbolKey> symbols_;
   std::vector<std::vector<Made>> made_;

@@ -6,6 +6,9 @@ namespace axil::simeco::preprocess {
 
 namespace {
 
+constexpr std::string_view kArrow = "\u2192";
+static_assert(kArrow.size() == 3);
+
 class Cleaner {
  public:
   explicit Cleaner(std::string_view text) : text_(text) { clean_.text.reserve(text.size()); }
@@ -27,9 +30,17 @@ class Cleaner {
     if (c == '"') {
       if (const auto end = quotedEnd(text_, at_)) return copy(*end - at_);
     }
+    if (text_.substr(at_).starts_with(kArrow)) return arrow();
     if (c == '\n') ownLine_ = true;
     else if (!isBlank(c)) ownLine_ = false;
     copy(1);
+  }
+
+  /// RTIL's arrow is as many bytes as ours, so places stay.
+  void arrow() {
+    clean_.text += "-->";
+    at_ += kArrow.size();
+    ownLine_ = false;
   }
 
   void copy(std::size_t count) {

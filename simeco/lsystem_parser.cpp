@@ -440,6 +440,9 @@ class LSystemParser : private LSystemReader {
           nextLine(end);
           return;
         }
+      } else if (const HeaderRow* extern_ = rule ? nullptr : externRowHere(); extern_ != nullptr && rules.productions.empty()) {
+        externBlock(*extern_, rules);
+        continue;
       } else if (!rule && headerRowHere() != nullptr) {
         errorHere("a header item stands after the axiom", "move it before Axiom:");
       } else {
@@ -448,6 +451,21 @@ class LSystemParser : private LSystemReader {
       }
       nextLine(end);
     }
+  }
+
+  /// RTIL writes its blocks between the axiom and the rules.
+  [[nodiscard]] const HeaderRow* externRowHere() const {
+    const HeaderRow* row = headerRowHere();
+    return row != nullptr && (row->item == HeaderItem::ExternStart || row->item == HeaderItem::ExternStartEach) ? row : nullptr;
+  }
+  void externBlock(const HeaderRow& row, RuleSet& rules) {
+    wholeText();
+    const std::size_t end = headerEnd();
+    takeComments(end + 1, rules.axiomComments.before);
+    limit_ = end;
+    takeKeyword(row.words);
+    headerItem(row.item, rules, end);
+    nextLine(end);
   }
 
   [[nodiscard]] const SectionRow* sectionRowHere() const {

@@ -176,7 +176,7 @@ class Scanner {
 
   void letters() {
     const char c = peek();
-    if (sees("-->")) return add(at_ + 3, TokenRole::Sign);
+    if (sees("-->") || sees("\u2192")) return add(at_ + 3, TokenRole::Sign);
     if (c == '(') {
       ++parens_;
       return add(at_ + 1, TokenRole::Separator);
@@ -201,7 +201,7 @@ class Scanner {
 
   void code() {
     const char c = peek();
-    if (rule_ && depth_ == 0 && parens_ == 0 && sees("-->")) {
+    if (rule_ && depth_ == 0 && parens_ == 0 && (sees("-->") || sees("\u2192"))) {
       rest_ = Rest::Letters;
       return add(at_ + 3, TokenRole::Sign);
     }

@@ -2,6 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "simeco/language.hpp"
+#include "simeco/language_service.hpp"
 
 namespace axil::simeco {
 namespace {
@@ -72,6 +73,36 @@ void printBenchmark(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(print(grammar).size());
 }
 BENCHMARK(printBenchmark)->Name("simeco/print")->Arg(2000)->Unit(benchmark::kMillisecond);
+
+
+// ---- an editor: tokens at every key stroke, the meaning when typing pauses, of texts of 10,000 rules
+
+std::string tenThousandRules(Language language) {
+  const bool classic = language == Language::LSystem;
+  std::string text = classic ? "#define D 22.5\nLsystem: 1\nderivation length: 3\nAxiom: A(1)\n" : "EcoSystem 1.1 \"e\" {\n    Plant \"p\" {\n        Stem {\n            Stage 1 {}\n        }\n        Grow {\n            w = A(0);\n";
+  for (int i = 0; i < 10'000; ++i) {
+    const std::string n = std::to_string(i), next = std::to_string(i + 1);
+    text += classic ? "A(x) : x>" + n + " && x<" + next + " --> F(x*0.9)[+(D)B(x/2)]/(137.5)A(x+1) // rule\n"
+                    : "            A(" + n + ") -> S(1) [rotr(0.915944)rotu(-2.102210)S(1)] A(" + next + ") ; // rule\n";
+  }
+  return text + (classic ? "endlsystem\n" : "        }\n    }\n}\n");
+}
+
+template <class Work>
+void editorBenchmark(benchmark::State& state, Language language, Work work) {
+  const std::string text = tenThousandRules(language);
+  for (auto _ : state) benchmark::DoNotOptimize(work(text, language));
+  state.SetLabel(std::to_string(text.size()) + " bytes, 10,000 rules");
+}
+const auto tokensWork = [](const std::string& text, Language language) { return tokensOf(text, language).size(); };
+const auto analyseWork = [](const std::string& text, Language language) { return analyse(text, language).symbols.size(); };
+const auto layoutWork = [](const std::string& text, Language language) { return formatted(text, language).value().size(); };
+BENCHMARK_CAPTURE(editorBenchmark, tokens_classic, Language::LSystem, tokensWork)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(editorBenchmark, tokens_simeco, Language::SimEco, tokensWork)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(editorBenchmark, analyse_classic, Language::LSystem, analyseWork)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(editorBenchmark, analyse_simeco, Language::SimEco, analyseWork)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(editorBenchmark, layout_classic, Language::LSystem, layoutWork)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(editorBenchmark, layout_simeco, Language::SimEco, layoutWork)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace axil::simeco
