@@ -47,6 +47,8 @@ const Command kCommands[] = {
     {"check", "Say what is wrong with a grammar, all of it at once", addCheck, kLight},
     {"fmt", "Lay a grammar out: one layout, comments kept", addFmt, kLight},
     {"derive", "Derive a grammar's string", addDerive, kLight},
+    {"fit-statistics", "Structure and statistics of one plant or many, by branching order and rank", addFitStatistics, kDrawing},
+    {"backtest", "Cut the youngest stage off, foretell it, compare", addBacktest, kDrawing},
     {"grow", "Grow a grammar into a picture, an animation, a mesh or a skeleton file", addGrow, kDrawing},
     {"build", "Do it all: skeleton, measurements, grammars, pictures, mesh and a report", addBuild, kDrawing},
     {"completion", "Print the completion script of a shell", addCompletion, kDrawing},  // it names the options of all

@@ -148,7 +148,7 @@ Result<simeco::Grammar> grammarOf(const Project& project, const quantify::Measur
   const emit::EmitOptions emitOptions = emitOptionsOf(project, options);
   switch (kind) {
     case GrammarKind::Initial: return emit::initialGrammar(measurements, emitOptions);
-    case GrammarKind::Predictive: return emit::predictiveGrammar(measurements, emitOptions);
+    case GrammarKind::Predictive: return emit::predictiveGrammar(measurements, emitOptions, options.predictive);
     case GrammarKind::Structured: return emit::structuredGrammar(measurements, emitOptions, options.structure);
   }
   return emit::initialGrammar(measurements, emitOptions);

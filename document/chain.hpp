@@ -21,6 +21,7 @@ struct ChainOptions {
   skeleton3d::SolveOptions solve = {};
   TurningRule turning = TurningRule::Exact;
   int decimals = 6;  ///< of the numbers in a grammar; -1: full precision
+  emit::PredictiveOptions predictive = {};
   emit::StructureOptions structure = {};
   simeco::Limits limits = {};  ///< of growing the grammars
   Watch watch = {};

@@ -1,207 +1,537 @@
 #include "emit/predictive.hpp"
 
+#include "base/text.hpp"
 #include "emit/assembly.hpp"
 #include "emit/builder.hpp"
 #include "emit/plan.hpp"
+#include "emit/predictive_thesis.hpp"
+#include "quantify/outlook.hpp"
 #include "quantify/statistics.hpp"
+#include "simeco/growth.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace axil::emit {
 
 namespace {
 
+using quantify::Fate;
 using quantify::Measurements;
-using quantify::RuleTemplate;
-using quantify::Segment;
-using quantify::Spread;
+using quantify::OrderOutlook;
+using quantify::Outlook;
 using simeco::BinaryOp;
 using simeco::ExprId;
 using simeco::Module;
 using simeco::OrganKind;
 
-/// The numbers that the prediction uses beside those of the initial grammar; the thesis' own unless the plant needs them.
-struct Numbers {
-  int firstCount = 1002;
-  int lastCount = 1003;
-  int firstApex = 1003;
-  int firstMarker = 5003;
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kNoBend = 0.2 * std::numbers::pi / 180;
+constexpr double kRare = 1e-3;          // fates rarer than this are left out
+constexpr double kNinety = 1.6448536269514722;
+constexpr double kLongest = 2;          // a trend that grows stops at this many times the longest measured
+constexpr const char* kNames[] = {"rank", "length", "around", "side", "wait", "left"};
+
+/// One alternative of a rule.
+struct Choice {
+  double share = 1;
+  std::vector<Module> modules;
 };
 
-/// When counters start and how long they run, in derivation steps.
-struct Clock {
-  int firstTip = 0;  ///< the step in which the first counter appears
-  int settled = 0;   ///< the step after which the initial plant is complete
+/// What an apex starts with. Expressions, so that rules can hand them on.
+struct ApexStart {
+  ExprId rank;
+  ExprId length;
+  ExprId around;
+  ExprId wait;
+  ExprId left;
 };
 
-bool isTip(const PlannedSegment& segment) { return segment.children.empty(); }
-
-Clock clockOf(const Plan& plan, const Assembled& initial) {
-  Clock clock{initial.bornAt.back() + 1, 0};
-  for (std::size_t s = 0; s < plan.segments.size(); ++s) {
-    if (!isTip(plan.segments[s])) continue;
-    clock.firstTip = std::min(clock.firstTip, initial.bornAt[s] + 1);
-    clock.settled = std::max(clock.settled, initial.bornAt[s] + 1);
-  }
-  return clock;
-}
-
-Numbers numbersFor(const Clock& clock, int firstFreeStage, int firstFreeApex) {
-  const int thousand = 1000 * (1 + std::max(firstFreeStage, firstFreeApex) / 1000);
-  Numbers numbers;
-  numbers.firstCount = thousand + 2;
-  numbers.firstApex = thousand + 3;
-  numbers.lastCount = numbers.firstCount + clock.settled - clock.firstTip + 1;
-  numbers.firstMarker = std::max(thousand + 4003, 1000 * (1 + numbers.lastCount / 1000) + 3);
-  return numbers;
-}
-
-/// Adds what the prediction needs to the initial grammar.
 class Predictor {
  public:
-  Predictor(const Measurements& m, const Plan& plan, const EmitOptions& options, std::vector<RuleTemplate> templates, Assembled initial)
-      : m_(m), plan_(plan), options_(options), templates_(std::move(templates)), out_(std::move(initial)), builder_(out_.grammar),
-        nextStage_(plan.firstFreeStage()), nextLeaf_(static_cast<int>(plan.leafStages.size()) + 1) {}
+  Predictor(const Measurements& m, const Plan& plan, const EmitOptions& options, const PredictiveOptions& predictive, Outlook outlook, Assembled initial)
+      : m_(m), plan_(plan), options_(options), predictive_(predictive), outlook_(std::move(outlook)), out_(std::move(initial)), builder_(out_.grammar),
+        firstStem_(plan.firstFreeStage()), nextLeaf_(static_cast<int>(plan.leafStages.size()) + 1) {
+    firstApex_ = 1000 * (1 + std::max(firstStem_, out_.firstFreeApex) / 1000);
+    firstBud_ = firstApex_ + 1000 * (1 + topOrder() / 1000);
+    firstStart_ = firstBud_ + 1000 * (1 + topOrder() / 1000);
+    for (const quantify::Segment& s : m.segments) longest_ = std::max(longest_, s.length);
+    thinnest_ = plan.segments.front().radius;
+    for (const PlannedSegment& s : plan.segments) thinnest_ = std::min(thinnest_, s.radius);
+    setTimes();
+  }
 
   simeco::Grammar predicted() {
-    std::map<std::size_t, std::vector<Module>> successors;  // by template, of those that a tip needs
-    for (std::size_t s = 0; s < plan_.segments.size(); ++s)
-      if (const std::size_t t = templateOf(s); isTip(plan_.segments[s]) && !successors.contains(t)) successors[t] = successorOf(templates_[t]);
-    clock_ = clockOf(plan_, out_);
-    numbers_ = numbersFor(clock_, nextStage_, out_.firstFreeApex);
-    for (std::size_t s = 0; s < plan_.segments.size(); ++s)
-      if (isTip(plan_.segments[s])) addCounter(s);
-    addStepRule();
-    for (auto& [t, successor] : successors) addTemplateRules(t, std::move(successor));
+    ageLeaves();
+    for (const auto& bud : outlook_.buds) addBud(bud);
+    for (const auto& tip : outlook_.tips) addTip(tip);
+    if (!outlook_.tips.empty() || !outlook_.buds.empty()) {
+      addStages();
+      addClock();
+      for (int order = 0; order <= topOrder(); ++order) addBudRule(order);
+      for (int order = 0; order <= topOrder(); ++order) addStartRule(order);
+      for (int order = 0; order <= topOrder(); ++order) addOrderRules(outlook_.of(order));
+    }
+    dropUnused();
     out_.grammar.version = "1.1";
-    out_.grammar.comments.before.push_back("// Then predicts one stage: every tip goes on like the part of the plant that it came from.");
+    addHeading();
     return std::move(out_.grammar);
   }
 
  private:
+  [[nodiscard]] int topOrder() const { return static_cast<int>(outlook_.orders.size()) - 1; }
+  [[nodiscard]] int capped(int order) const { return std::min(order, topOrder()); }
+  [[nodiscard]] int apexOf(int order) const { return firstApex_ + capped(order); }
+  [[nodiscard]] int budOf(int order) const { return firstBud_ + capped(order); }
+  [[nodiscard]] int startOf(int order) const { return firstStart_ + capped(order); }
+  [[nodiscard]] int stemOf(int order) const { return firstStem_ + 2 * capped(order); }
+  [[nodiscard]] int petioleOf(int order) const { return firstStem_ + 2 * capped(order) + 1; }
+  [[nodiscard]] int leafOf(int order) const { return firstLeaf_ + capped(order); }
   simeco::RuleSet& rules() { return out_.grammar.plants.front().rules; }
   std::vector<simeco::Stage>& stages(OrganKind kind) { return blockOf(out_.grammar.plants.front(), kind).stages; }
 
-  /// `random(low, high)`, or the number itself where it does not vary.
-  ExprId drawn(const Spread& spread) { return drawn(spread, plan_.digits.angle); }
-  ExprId drawn(const Spread& spread, int digits) {
-    if (rounded(spread.low, digits) == rounded(spread.high, digits)) return builder_.number(spread.low, digits);
-    return builder_.call("random", {builder_.number(spread.low, digits), builder_.number(spread.high, digits)});
+  // ---- expressions ---------------------------------------------------------------------------------------------------
+
+  ExprId angle(double radians) { return builder_.number(rounded(radians, plan_.digits.angle) + 0.0, plan_.digits.angle); }
+  ExprId size(double length) { return builder_.number(length, plan_.digits.length); }
+  ExprId ratio(double value) { return builder_.number(value, 4); }
+  ExprId name(const char* text) { return builder_.name(text); }
+  ExprId plus(ExprId a, ExprId b) { return builder_.binary(BinaryOp::Add, a, b); }
+  ExprId minus(ExprId a, ExprId b) { return builder_.binary(BinaryOp::Subtract, a, b); }
+  ExprId times(ExprId a, ExprId b) { return builder_.binary(BinaryOp::Multiply, a, b); }
+  ExprId anySide() { return builder_.call("random", {angle(-std::numbers::pi), angle(std::numbers::pi)}); }
+  ExprId drawnAngle(double mean, double deviation) {
+    if (rounded(deviation, plan_.digits.angle) == 0) return angle(mean);
+    return builder_.call("normal", {angle(mean), angle(deviation)});
   }
-  void drawnTurn(std::vector<Module>& to, const Spread& rotr, const Spread& rotu) {
-    to.push_back(Builder::module("rotr", {drawn(rotr)}));
-    to.push_back(Builder::module("rotu", {drawn(rotu)}));
+  ExprId scaled(ExprId length, double factor) { return std::abs(factor - 1) < 5e-5 ? length : times(length, ratio(factor)); }
+  /// `length` with the order's chance around it.
+  ExprId varied(ExprId length, double miss) {
+    if (miss < 5e-5) return length;
+    return times(length, builder_.call("exp", {builder_.call("normal", {builder_.whole(0), ratio(std::min(miss, 1.0))})}));
   }
 
-  int newStem(const Spread& length, double radius) {
-    stages(OrganKind::Stem).push_back(stemStage(out_.grammar, nextStage_, drawn(length, plan_.digits.length), radius, plan_.digits, options_));
-    return nextStage_++;
+  Module apex(int number, const ApexStart& start, bool turns) {
+    return Builder::module("A", {builder_.whole(number), start.rank, start.length, start.around, turns ? anySide() : builder_.whole(0), start.wait, start.left});
   }
-  int newLeaf(const quantify::LeafSpread& leaf, const std::string& shape) {
-    stages(OrganKind::Leaf).push_back(leafStage(out_.grammar, nextLeaf_, {leaf.length.mean, leaf.width.mean, shape}, plan_.digits, options_));
-    return nextLeaf_++;
+  std::vector<ExprId> named(int number) {
+    std::vector<ExprId> arguments{builder_.whole(number)};
+    for (const char* word : kNames) arguments.push_back(name(word));
+    return arguments;
   }
+  void turn(std::vector<Module>& to, ExprId rotr, ExprId rotu) {
+    to.push_back(Builder::module("rotr", {rotr}));
+    to.push_back(Builder::module("rotu", {rotu}));
+  }
+  static bool bends(const OrderOutlook& o) { return o.bend.value > kNoBend; }
 
-  [[nodiscard]] double thinnest() const {
-    double radius = plan_.segments.front().radius;
-    for (const PlannedSegment& s : plan_.segments) radius = std::min(radius, s.radius);
-    return radius;
-  }
+  // ---- time ----------------------------------------------------------------------------------------------------------
 
-  void addLeaf(std::vector<Module>& to, const quantify::LeafSpread& leaf, const std::string& shape) {
-    to.push_back(Builder::module("["));
-    drawnTurn(to, leaf.rotr, leaf.rotu);
-    to.push_back(builder_.organ("S", leaf.petiole.mean > 0 ? newStem(leaf.petiole, thinnest()) : 0));
-    const Spread none;
-    drawnTurn(to, none, leaf.roll);
-    to.push_back(builder_.organ("L", newLeaf(leaf, shape)));
-    to.push_back(Builder::module("]"));
-  }
-
-  std::vector<Module> successorOf(const RuleTemplate& pattern) {
-    std::vector<Module> next;
-    const Segment& example = m_.at(pattern.members.front());
-    for (std::size_t l = 0; l < pattern.leaves.size(); ++l) addLeaf(next, pattern.leaves[l], example.leaves[l].shape);
-    for (std::size_t c = 0; c < pattern.children.size(); ++c) {
-      const bool bracketed = c < pattern.structure.branches;
-      if (bracketed) next.push_back(Builder::module("["));
-      drawnTurn(next, pattern.children[c].rotr, pattern.children[c].rotu);
-      next.push_back(builder_.organ("S", newStem(pattern.children[c].length, thinnest())));
-      if (bracketed) next.push_back(Builder::module("]"));
+  void setTimes() {
+    int lastBorn = 0;
+    for (std::size_t s = 0; s < plan_.segments.size(); ++s) {
+      lastBorn = std::max(lastBorn, out_.bornAt[s]);
+      lastOrgan_ = std::max(lastOrgan_, out_.bornAt[s] + (plan_.segments[s].leaves.empty() ? 0 : 1));
     }
-    return next;
+    // Nothing new is born before the last measured organ, which takes a unit of time, is complete.
+    wake_ = std::max(lastBorn + 2, lastOrgan_ + static_cast<int>(std::ceil(1 / options_.deriveTime)));
+  }
+  [[nodiscard]] double ageAtMeasuring(std::size_t segment) const { return (lastOrgan_ - out_.bornAt[segment] - 1) * options_.deriveTime + 1; }
+
+  // ---- the measured plant's own leaves ---------------------------------------------------------------------------------
+
+  /// Gives leaves that will still grow or fall a stage of their own.
+  void ageLeaves() {
+    const quantify::PlantStructure structure = quantify::plantStructure(m_);
+    for (std::size_t s = 0; s < plan_.segments.size(); ++s) {
+      if (plan_.segments[s].leaves.empty() || !out_.ruleOf[s]) continue;
+      std::size_t leaf = 0;
+      for (Module& module : rules().productions[*out_.ruleOf[s]].successors.front().modules) {
+        if (module.letter != "L") continue;
+        const quantify::LeafMeasure& measured = *plan_.segments[s].leaves[leaf].measure;
+        if (const auto stage = agedStage(s, structure.places[s], measured, plan_.segments[s].leaves[leaf].leafStage)) module.arguments = {builder_.whole(*stage)};
+        if (++leaf == plan_.segments[s].leaves.size()) break;
+      }
+    }
+    firstLeaf_ = nextLeaf_;
   }
 
-  /// The template of the rule that made this segment; for one that leaves the collar, the commonest.
-  [[nodiscard]] std::size_t templateOf(std::size_t segment) const {
-    const auto& parent = m_.segments[segment].parent;
-    const auto fits = [&](const RuleTemplate& t) { return parent && t.structure == quantify::structureOf(m_.at(*parent)); };
-    const auto commoner = [](const RuleTemplate& a, const RuleTemplate& b) { return a.members.size() < b.members.size(); };
-    const auto found = std::find_if(templates_.begin(), templates_.end(), fits);
-    const auto chosen = found != templates_.end() ? found : std::max_element(templates_.begin(), templates_.end(), commoner);
-    return static_cast<std::size_t>(chosen - templates_.begin());
+  std::optional<int> agedStage(std::size_t segment, const quantify::SegmentPlace& place, const quantify::LeafMeasure& leaf, int like) {
+    const OrderOutlook& o = outlook_.of(place.order);
+    const bool onGrowingAxis = outlook_.statistics.schedule.plants.front().grows[static_cast<std::size_t>(place.axis.value)];
+    const double stagesOld = place.fromTip + (o.leafAtOwnTip ? 1 : 0);
+    const double more = o.leafStages - stagesOld;
+    const double final = more > 0 ? std::max(leaf.length, o.leafLength) : leaf.length;
+    const bool grows = onGrowingAxis && more > 0 && final > 1.02 * leaf.length;
+    const bool falls = onGrowingAxis && o.leafLasts.has_value();
+    if (!grows && !falls) return std::nullopt;
+    const double age = ageAtMeasuring(segment);
+    // The stage a measured leaf has, copied and given its future.
+    const auto& existing = stages(OrganKind::Leaf);
+    simeco::Stage stage = *std::find_if(existing.begin(), existing.end(), [like](const simeco::Stage& st) { return st.number == like; });
+    stage.number = nextLeaf_++;
+    if (grows) {
+      setNumber(stage, "GrowRate", valueOf(stage, "GrowRate") / age);
+      setNumber(stage, "GrowTime", age * final / leaf.length);
+      if (const double broaden = valueOf(stage, "BroadenRate"); broaden > 0) setNumber(stage, "BroadenRate", broaden / age);
+    }
+    if (falls) {
+      const double left = std::max(0.5, *o.leafLasts - place.fromTip);
+      stage.attributes.push_back(builder_.attribute("FallAge", builder_.number(age + (left - 0.5) * options_.deriveTime + (wake_ - lastOrgan_) * options_.deriveTime - 1, 4)));
+    }
+    stages(OrganKind::Leaf).push_back(std::move(stage));
+    return nextLeaf_ - 1;
   }
-  [[nodiscard]] int markerOf(std::size_t t) const { return numbers_.firstMarker + static_cast<int>(t); }
-  [[nodiscard]] int apexOf(std::size_t t) const { return numbers_.firstApex + static_cast<int>(t); }
 
-  void addCounter(std::size_t s) {
-    const std::size_t t = templateOf(s);
-    const int start = numbers_.firstCount + out_.bornAt[s] + 1 - clock_.firstTip;
-    const std::vector<Module> counter{builder_.organ("S", start), builder_.organ("S", markerOf(t))};
+  [[nodiscard]] double valueOf(const simeco::Stage& stage, const std::string& attribute) const {
+    for (const simeco::Attribute& a : stage.attributes)
+      if (const auto* number = a.name == attribute ? std::get_if<simeco::Number>(&out_.grammar.at(a.value).node) : nullptr) return number->value;
+    return 0;
+  }
+  void setNumber(simeco::Stage& stage, const std::string& attribute, double value) {
+    for (simeco::Attribute& a : stage.attributes)
+      if (a.name == attribute) a.value = builder_.number(value, -1);
+  }
+
+  // ---- where the prediction is tied to the plant -----------------------------------------------------------------------
+
+  int stagesLeft(int order, double stagesOld) const {
+    const auto& lasting = outlook_.of(order).schedule.lasting;
+    return lasting ? std::clamp(static_cast<int>(std::lround(*lasting - stagesOld)), 0, predictive_.stages) : predictive_.stages;
+  }
+
+  void addTip(const quantify::TipOutlook& tip) {
+    const auto s = static_cast<std::size_t>(tip.tip.value);
+    const OrderOutlook& o = outlook_.of(tip.order);
+    const auto& own = outlook_.statistics.schedule.plants.front();
+    const double stagesOld = own.now - own.birth[s] + tip.nextRank;
+    const ApexStart start{builder_.whole(tip.nextRank), size(tip.length), angle(std::remainder(tip.azimuth, kTurn)), builder_.whole(wake_ - out_.bornAt[s] - 2),
+                          builder_.whole(stagesLeft(tip.order, stagesOld))};
+    const Module module = apex(apexOf(tip.order), start, bends(o));
     if (!out_.ruleOf[s]) {
-      rules().productions.push_back(Builder::rule({builder_.organ("S", plan_.segments[s].stage)}, counter));
+      rules().productions.push_back(Builder::rule({builder_.organ("S", plan_.segments[s].stage)}, {module}));
       return;
     }
-    std::vector<Module>& successor = rules().productions[*out_.ruleOf[s]].successors.front().modules;
-    successor.insert(successor.end(), counter.begin(), counter.end());
+    rules().productions[*out_.ruleOf[s]].successors.front().modules.push_back(module);
   }
 
-  void addStepRule() {
-    const ExprId next = builder_.binary(BinaryOp::Add, builder_.name("i"), builder_.whole(1));
-    simeco::Production step = Builder::rule({Builder::module("S", {builder_.name("i")})}, {Builder::module("S", {next})});
-    step.condition = out_.grammar.add(simeco::Chain{{builder_.whole(numbers_.firstCount - 1), builder_.name("i"), builder_.whole(numbers_.lastCount)},
-                                                    {BinaryOp::Less, BinaryOp::Less}});
-    step.conditionPlace = simeco::ConditionPlace::InSuccessor;
-    step.comments.before = {"// The clock: all counters run out together, when the measured plant is complete."};
-    rules().productions.push_back(std::move(step));
+  void addBud(const quantify::BudOutlook& bud) {
+    const auto s = static_cast<std::size_t>(bud.at.value);
+    const OrderOutlook& o = outlook_.of(bud.order);
+    const int wait = std::max(0, wake_ - out_.bornAt[s] - 3) + bud.waits;
+    const ApexStart start{builder_.whole(0), size(bud.length), angle(0), builder_.whole(wait), builder_.whole(std::max(0, predictive_.stages - bud.waits))};
+    std::vector<Module> modules{Builder::module("[")};
+    turn(modules, drawnAngle(o.insertion.value, 0), angle(std::remainder(bud.rotu, kTurn)));
+    modules.push_back(apex(budOf(bud.order), start, false));
+    modules.push_back(Builder::module("]"));
+    auto& successor = rules().productions[*out_.ruleOf[s]].successors.front().modules;
+    successor.insert(successor.begin() + 1, modules.begin(), modules.end());
+    budShares_[capped(bud.order)] = bud.share;
   }
 
-  void addTemplateRules(std::size_t t, std::vector<Module> successor) {
-    simeco::Production wake = Builder::rule({builder_.organ("S", numbers_.lastCount)}, {builder_.organ("A", apexOf(t))});
-    wake.right = {builder_.organ("S", markerOf(t))};
-    const RuleTemplate& pattern = templates_[t];
-    wake.comments.before = {"// Template " + std::to_string(t + 1) + ", from " + countOf(pattern.members.size(), "measured place", "measured places") +
-                            ": the stem goes on, " + countOf(pattern.structure.branches, "branch", "branches") + ", " +
-                            countOf(pattern.structure.leaves, "leaf", "leaves") + "."};
-    rules().productions.push_back(std::move(wake));
-    rules().productions.push_back(Builder::rule({builder_.organ("A", apexOf(t))}, std::move(successor)));
+  // ---- new organs ------------------------------------------------------------------------------------------------------
+
+  void addStages() {
+    for (int order = 0; order <= topOrder(); ++order) {
+      const OrderOutlook& o = outlook_.of(order);
+      simeco::Stage stage = stemStage(out_.grammar, stemOf(order), name("length"), o.radius > 0 ? o.radius : thinnest_, plan_.digits, options_);
+      stage.parameters = {"length"};
+      stages(OrganKind::Stem).push_back(std::move(stage));
+      if (o.perNode > 0 && o.petiole > 0) stages(OrganKind::Stem).push_back(stemStage(out_.grammar, petioleOf(order), o.petiole, thinnest_, plan_.digits, options_));
+      if (o.perNode > 0) stages(OrganKind::Leaf).push_back(newLeafStage(o));
+    }
+  }
+
+  simeco::Stage newLeafStage(const OrderOutlook& o) {
+    simeco::Stage stage = leafStage(out_.grammar, leafOf(o.order), {o.leafLength, o.leafWidth, leafShape(o.order)}, plan_.digits, options_);
+    const double time = o.leafStages > 1 ? o.leafStages * options_.deriveTime : 1;
+    for (simeco::Attribute& a : stage.attributes) {
+      if (a.name == "GrowTime") a.value = builder_.number(time, 6);
+      if (a.name == "GrowRate") a.value = varied(size(o.leafLength / time), o.leafDeviation);
+      if (a.name == "BroadenRate") a.value = builder_.number(o.leafWidth / 2 / simeco::modelRadius / time, plan_.digits.length);
+    }
+    if (o.leafLasts) stage.attributes.push_back(builder_.attribute("FallAge", builder_.number((*o.leafLasts + 0.5) * options_.deriveTime, 4)));
+    return stage;
+  }
+
+  std::string leafShape(int order) const {
+    const std::vector<int> orders = quantify::ordersOf(m_);
+    std::string shape;
+    for (std::size_t s = 0; s < m_.segments.size(); ++s)
+      for (const auto& leaf : m_.segments[s].leaves)
+        if (shape.empty() || orders[s] == order) shape = leaf.shape;
+    return shape;
+  }
+
+  void addLeaves(std::vector<Module>& to, const OrderOutlook& o, ExprId around) {
+    for (int l = 0; l < o.perNode; ++l) {
+      to.push_back(Builder::module("["));
+      turn(to, drawnAngle(o.leafAngle, o.leafAngleDeviation), l == 0 ? around : plus(around, angle(kTurn * l / o.perNode)));
+      if (o.petiole > 0) to.push_back(builder_.organ("S", petioleOf(o.order)));
+      to.push_back(builder_.organ("L", leafOf(o.order)));
+      to.push_back(Builder::module("]"));
+    }
+  }
+
+  ExprId leftAfter(int order, int stagesLater) {
+    const ExprId left = minus(name("left"), builder_.whole(stagesLater));
+    const auto& lasting = outlook_.of(order).schedule.lasting;
+    return lasting ? builder_.call("min", {left, builder_.whole(std::max(0, static_cast<int>(std::lround(*lasting)) - 1))}) : left;
+  }
+
+  /// A new axis' first segment and its apex. `length` is foretold; leaves at its own tip where leaves come so.
+  void startAxis(std::vector<Module>& to, const OrderOutlook& o, ExprId length, ExprId left, double leafShare) {
+    to.push_back(Builder::module("S", {builder_.whole(stemOf(o.order)), varied(length, o.startMiss)}));
+    const ExprId around = o.startsAlike ? angle(o.firstAzimuth) : angle(0);
+    if (o.leafAtOwnTip && leafShare > 0.5) addLeaves(to, o, around);
+    const ApexStart next{builder_.whole(1), scaled(length, o.length.step), around, builder_.whole(0), left};
+    to.push_back(apex(apexOf(o.order), next, bends(o)));
+  }
+
+  /// What branches off at an apex' node.
+  void addBranches(std::vector<Module>& to, const OrderOutlook& bearer, int count) {
+    const OrderOutlook& o = outlook_.of(bearer.order + 1);
+    // The bearer is the segment below the one whose length is foretold.
+    const ExprId length = o.followsBearer ? scaled(name("length"), o.bearerRatio / bearer.length.step) : size(o.usualLength);
+    for (int b = 0; b < count; ++b) {
+      const double beside = std::remainder(bearer.branchBesideLeaf + kTurn * b / count, kTurn);
+      to.push_back(Builder::module("["));
+      turn(to, drawnAngle(o.insertion.value, o.insertion.deviation), std::abs(beside) < 1e-4 ? name("around") : plus(name("around"), angle(beside)));
+      if (bearer.delay == 0) {
+        startAxis(to, o, length, leftAfter(o.order, 1), o.leafShare);
+      } else {
+        const ApexStart later{builder_.whole(0), length, angle(0), builder_.whole(bearer.delay - 1), leftAfter(o.order, bearer.delay)};
+        to.push_back(apex(startOf(o.order), later, false));
+        needsStart_[capped(o.order)] = true;
+      }
+      to.push_back(Builder::module("]"));
+    }
+  }
+
+  /// What an apex makes of a fate, with or without the leaves of this stage.
+  std::vector<Module> successorOf(const OrderOutlook& o, const Fate& fate, bool leaves) {
+    std::vector<Module> to;
+    if (leaves && !o.leafAtOwnTip) addLeaves(to, o, name("around"));
+    addBranches(to, o, fate.branches);
+    if (!fate.goesOn) return to;
+    const bool bent = bends(o);
+    if (bent) turn(to, drawnAngle(o.bend.value, o.bend.deviation), name("side"));
+    to.push_back(Builder::module("S", {builder_.whole(stemOf(o.order)), varied(name("length"), o.length.miss)}));
+    // The next node's organs stand further round; a bend has rolled the frame by `side`.
+    const double divergence = std::abs(o.divergence) < 1e-6 ? 0 : o.divergence;
+    ExprId around = name("around");
+    if (divergence != 0) around = plus(around, drawnAngle(divergence, o.divergenceDeviation));
+    if (bent) around = minus(around, name("side"));
+    if (leaves && o.leafAtOwnTip) addLeaves(to, o, around);
+    ExprId length = scaled(name("length"), o.length.step);
+    if (o.length.step > 1 + 5e-5) length = builder_.call("min", {length, size(kLongest * longest_)});
+    to.push_back(apex(apexOf(o.order), {plus(name("rank"), builder_.whole(1)), length, around, builder_.whole(0), minus(name("left"), builder_.whole(1))}, bent));
+    return to;
+  }
+
+  std::vector<Choice> choicesOf(const OrderOutlook& o, const std::vector<Fate>& fates) {
+    std::vector<Choice> choices;
+    const double rate = o.schedule.steady ? 1 : o.schedule.rate;
+    const double leafShare = o.perNode > 0 ? o.leafShare : 0;
+    const bool chance = leafShare > 0.1 && leafShare < 0.9;
+    for (const Fate& fate : fates) {
+      if (fate.share < kRare) continue;
+      if (!chance) {
+        choices.push_back({rate * fate.share, successorOf(o, fate, leafShare >= 0.9)});
+        continue;
+      }
+      choices.push_back({rate * fate.share * leafShare, successorOf(o, fate, true)});
+      choices.push_back({rate * fate.share * (1 - leafShare), successorOf(o, fate, false)});
+    }
+    if (rate < 1 - kRare) {
+      auto same = named(apexOf(o.order));
+      same.back() = minus(name("left"), builder_.whole(1));
+      choices.push_back({1 - rate, {Builder::module("A", std::move(same))}});
+    }
+    return choices;
+  }
+
+  // ---- rules -----------------------------------------------------------------------------------------------------------
+
+  void addRule(int number, ExprId condition, std::vector<Choice> choices, std::vector<std::string> comments) {
+    double sum = 0;
+    for (const Choice& c : choices) sum += c.share;
+    if (sum <= 0) return;
+    simeco::Production rule;
+    rule.predecessor = {Builder::module("A", named(number))};
+    rule.condition = condition;
+    rule.conditionPlace = simeco::ConditionPlace::AfterColon;
+    for (Choice& c : choices) {
+      rule.successors.push_back({std::move(c.modules), std::nullopt});
+      if (choices.size() > 1) rule.successors.back().weight = ratio(std::max(1e-4, c.share / sum));
+    }
+    rule.comments.before = std::move(comments);
+    rules().productions.push_back(std::move(rule));
+  }
+
+  /// One clock a kind of apex: all wait until the measured plant is complete.
+  void addClock() {
+    bool first = true;
+    for (int order = 0; order <= topOrder(); ++order)
+      for (const int number : {apexOf(order), budOf(order), startOf(order)}) {
+        auto next = named(number);
+        next[next.size() - 2] = minus(name("wait"), builder_.whole(1));
+        simeco::Production rule = Builder::rule({Builder::module("A", named(number))}, {});
+        rule.successors.front().modules = {Builder::module("A", std::move(next))};
+        rule.condition = builder_.binary(BinaryOp::Greater, name("wait"), builder_.whole(0));
+        if (first) rule.comments.before = {"// The clock: apices wait until the measured plant is complete."};
+        first = false;
+        rules().productions.push_back(std::move(rule));
+      }
+  }
+
+  ExprId alive() { return builder_.binary(BinaryOp::Greater, name("left"), builder_.whole(0)); }
+
+  void addBudRule(int order) {
+    if (!budShares_.contains(order)) return;
+    needsStart_[order] = true;
+    const double share = std::clamp(budShares_.at(order), 0.0, 1.0);
+    std::vector<Choice> choices{{share, {Builder::module("A", named(startOf(order)))}}};
+    if (share < 1 - kRare) choices.push_back({1 - share, {}});
+    addRule(budOf(order), alive(), std::move(choices), {"// Nodes that were too young to branch: " + fixed(100 * share, 0) + " % of them will."});
+  }
+
+  void addStartRule(int order) {
+    const OrderOutlook& o = outlook_.of(order);
+    std::vector<Module> modules;
+    startAxis(modules, o, name("length"), leftAfter(order, 1), o.leafShare);
+    pendingStart_[order] = std::move(modules);
+  }
+
+  void addOrderRules(const OrderOutlook& o) {
+    ExprId condition = alive();
+    if (o.most) condition = builder_.binary(BinaryOp::And, condition, builder_.binary(BinaryOp::Less, name("rank"), builder_.whole(*o.most)));
+    std::vector<std::string> comments = commentsFor(o);
+    if (o.period > 1) {
+      // The node at which an apex stands has the rank of the segment below it.
+      const ExprId place = builder_.binary(BinaryOp::Remainder, plus(name("rank"), builder_.whole(o.period - 1)), builder_.whole(o.period));
+      const ExprId here = builder_.binary(BinaryOp::Equal, place, builder_.whole(o.phase));
+      addRule(apexOf(o.order), builder_.binary(BinaryOp::And, condition, here), choicesOf(o, o.fates), std::move(comments));
+      comments = {};
+      addRule(apexOf(o.order), alive(), choicesOf(o, {{true, 0, 1, 0}}), {});
+      if (o.most) rules().productions.back().condition = builder_.binary(BinaryOp::And, alive(), builder_.binary(BinaryOp::Less, name("rank"), builder_.whole(*o.most)));
+    } else {
+      addRule(apexOf(o.order), condition, choicesOf(o, o.fates), std::move(comments));
+    }
+    for (auto& [order, modules] : pendingStart_)
+      if (needsStart_[order] && !modules.empty()) {
+        addRule(startOf(order), alive(), {{1, std::move(modules)}}, {"// A branch of order " + std::to_string(order) + " begins."});
+        modules.clear();
+      }
+  }
+
+  /// Rules and stages of apices that nothing makes would only be warned of.
+  void dropUnused() {
+    auto& productions = rules().productions;
+    for (bool dropped = true; dropped;) {
+      std::map<std::pair<std::string, int>, bool> made;
+      const auto note = [&](const std::vector<Module>& modules, const Module* own) {
+        for (const Module& module : modules)
+          if (const auto number = numberOf(module); number && !(own != nullptr && module.letter == own->letter && number == numberOf(*own))) made[{module.letter, *number}] = true;
+      };
+      note(rules().axiom, nullptr);
+      for (const auto& rule : productions)
+        for (const auto& successor : rule.successors) note(successor.modules, &rule.predecessor.front());
+      const auto before = productions.size();
+      std::erase_if(productions, [&](const simeco::Production& rule) {
+        const Module& own = rule.predecessor.front();
+        const auto number = numberOf(own);
+        return own.letter == "A" && number && *number >= firstApex_ && !made.contains({"A", *number});
+      });
+      dropped = productions.size() < before;
+      if (dropped) continue;
+      for (const OrganKind kind : {OrganKind::Stem, OrganKind::Leaf})
+        std::erase_if(stages(kind), [&](const simeco::Stage& stage) { return !made.contains({kind == OrganKind::Stem ? "S" : "L", stage.number}); });
+    }
+  }
+
+  [[nodiscard]] std::optional<int> numberOf(const Module& module) const {
+    if (module.arguments.empty()) return std::nullopt;
+    const auto* number = std::get_if<simeco::Number>(&out_.grammar.at(module.arguments.front()).node);
+    return number == nullptr ? std::nullopt : std::optional(static_cast<int>(number->value));
+  }
+
+  // ---- words -----------------------------------------------------------------------------------------------------------
+
+  std::vector<std::string> commentsFor(const OrderOutlook& o) const {
+    std::string fates;
+    for (const Fate& fate : o.fates) {
+      if (fate.share < kRare) continue;
+      const std::string branches = fate.branches == 0 ? "" : " with " + countOf(static_cast<std::size_t>(fate.branches), "branch", "branches");
+      fates += (fates.empty() ? "" : ", ") + (fate.goesOn ? "goes on" + branches : fate.branches > 0 ? "ends" + branches : std::string("ends")) + " " + fixed(100 * fate.share, 0) + " %";
+    }
+    std::vector<std::string> lines{"// Order " + std::to_string(o.order) + ", from " + countOf(o.segments, "segment", "segments") + ": an apex " + fates +
+                                   (o.period > 1 ? " at every " + std::to_string(o.period) + ". node" : "") + "."};
+    std::string growth = "// Its next length is foretold from " + std::string(quantify::nameOf(o.length.rule)) + ", x " + fixed(o.length.step, 4) + " a rank; 90 % within a factor of " +
+                         fixed(std::exp(kNinety * o.length.miss), 3) + " (" + countOf(o.length.samples, "sample", "samples") + ").";
+    if (!o.schedule.steady) growth += " It makes " + fixed(o.schedule.rate, 2) + " segments a stage" + (o.schedule.lasting ? " for " + fixed(*o.schedule.lasting, 0) + " stages." : ".");
+    if (o.most) growth += " Axes end after " + countOf(static_cast<std::size_t>(*o.most), "segment", "segments") + ".";
+    lines.push_back(growth);
+    return lines;
+  }
+
+  void addHeading() {
+    int depth = 0;
+    for (const auto& s : m_.segments) depth = std::max(depth, s.level + 1);
+    auto& lines = out_.grammar.comments.before;
+    lines.push_back("// Then predicts " + countOf(static_cast<std::size_t>(predictive_.stages), "stage", "stages") + ", by the statistics of " +
+                    countOf(outlook_.statistics.plants, "plant", "plants") + ", from step " + std::to_string(wake_) + " on; no path gets longer than " + std::to_string(depth + predictive_.stages) +
+                    " segments.");
+    if (outlook_.tips.empty() && outlook_.buds.empty()) lines.push_back("// All axes have ended: there is nothing to predict.");
+    else lines.push_back("// A(n, rank, length, around, side, wait, left): an apex; its next segment's rank and foretold length, where the node's organs stand, where it bends to, steps to wait, stages left.");
+    for (const std::string& warning : outlook_.statistics.warnings) lines.push_back("// Warning: " + warning + ".");
   }
 
   const Measurements& m_;
   const Plan& plan_;
   const EmitOptions& options_;
-  std::vector<RuleTemplate> templates_;
+  const PredictiveOptions& predictive_;
+  Outlook outlook_;
   Assembled out_;
   Builder builder_;
-  int nextStage_;
+  int firstStem_;
   int nextLeaf_;
-  Clock clock_;
-  Numbers numbers_;
+  int firstLeaf_ = 0;
+  int firstApex_ = 0;
+  int firstBud_ = 0;
+  int firstStart_ = 0;
+  int lastOrgan_ = 0;  ///< the step in which the last measured organ is born
+  int wake_ = 0;       ///< the step in which the first predicted organs are born
+  double longest_ = 0;
+  double thinnest_ = 0;
+  std::map<int, double> budShares_;
+  std::map<int, bool> needsStart_;
+  std::map<int, std::vector<Module>> pendingStart_;
 };
+
+Result<simeco::Grammar> layeredGrammar(const Measurements& measurements, const EmitOptions& options, const PredictiveOptions& predictive) {
+  const Result<Plan> plan = planOf(measurements, options);
+  if (!plan) return plan.failure();
+  std::vector<Measurements> plants{measurements};
+  plants.insert(plants.end(), predictive.also.begin(), predictive.also.end());
+  auto outlook = quantify::outlookOf(plants);
+  if (!outlook) return outlook.failure();
+  return Predictor(measurements, *plan, options, predictive, std::move(*outlook), assembled(*plan, options)).predicted();
+}
 
 }  // namespace
 
-Result<simeco::Grammar> predictiveGrammar(const Measurements& measurements, const EmitOptions& options) {
-  const Result<Plan> plan = planOf(measurements, options);
-  if (!plan) return plan.failure();
-  std::vector<RuleTemplate> templates = quantify::templatesOf(measurements);
-  if (templates.empty())
-    return fail(ErrorCode::NoAnswer, "nothing can be predicted: no segment of the plant has a child, so nothing shows how it goes on; measure it with more nodes");
-  return Predictor(measurements, *plan, options, std::move(templates), assembled(*plan, options)).predicted();
+Result<simeco::Grammar> predictiveGrammar(const Measurements& measurements, const EmitOptions& options, const PredictiveOptions& predictive) {
+  if (predictive.stages < 1 || predictive.stages > kMostStages)
+    return fail(ErrorCode::BadInput, std::to_string(predictive.stages) + " stages ahead are not possible; give 1 to " + std::to_string(kMostStages));
+  if (predictive.style == PredictiveStyle::Layered) return layeredGrammar(measurements, options, predictive);
+  if (predictive.stages != 1 || !predictive.also.empty())
+    return fail(ErrorCode::BadInput, "the thesis' style predicts one stage from one plant; leave its style out for more");
+  return thesisGrammar(measurements, options);
 }
 
 }  // namespace axil::emit

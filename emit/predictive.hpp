@@ -1,24 +1,41 @@
 #pragma once
 /// \file
-/// The predictive grammar, built as the thesis builds it: the initial grammar, and one stage more.
+/// The predictive grammar: the measured plant, and how it goes on from there.
 ///
-/// Rules of the initial grammar with the same structure (as many branches and leaves, a main child or none) make one template;
-/// the ranges of their numbers become the ranges of its random values. Every tip ends in a counter and a marker,
-/// `S(1002) S(5003)`; `S(i) -> S(i+1, 1001 < i < 1006)` lets the counter run; once it has run out, `S(1006) > S(5003) -> A(1003)` turns
-/// it into an apex that expands by its template. A tip takes the template of the rule that it came from itself.
+/// *Layered*, the default: the initial grammar, which regrows the plant, with an apex `A(n, rank, length, around, side, wait, left)` at every tip that still
+/// grows. Apices wait until the last measured organ is complete, all wake in the same step, and then make a stage a step, `stages` of them:
+/// no path gets longer than the measured plant's plus `stages` segments. One rule a branching order says what an apex makes, with the frequencies,
+/// distributions and trends of that order (quantify/outlook.hpp): growth slows along the rank as measured, stops at the rank and after the time at which
+/// measured axes stop, branches are slower than their bearers by the measured rate; leaves take as many stages to grow, and fall after as
+/// many, as measured ones. Measured leaves that are still small go on growing to the usual size, old ones fall.
 ///
-/// A counter's start says how late its tip appears, so that all run out in the same step, after the last measured organ: until
-/// then the plant is exactly the initial plant. It predicts one stage and ends. The text is SimEco 1.1, for `random` is not 1.0.
-/// What the method can't do is in docs/prediction.md. Source: L-Grammar Generator 2005, section 3.4.2.
+/// At the measured time (when the initial grammar is complete) the plant is the measured plant, organ for organ. Before that, only leaves that are
+/// still to grow are shorter than the initial grammar has them, since one leaf grows at one rate.
+///
+/// *Thesis*: one stage, templates with ranges, as L-Grammar Generator 2005, section 3.4.2, builds it. Both are SimEco 1.1, for `random` is not 1.0.
 
 #include "base/result.hpp"
 #include "emit/initial.hpp"
 #include "quantify/types.hpp"
 #include "simeco/grammar.hpp"
 
+#include <vector>
+
 namespace axil::emit {
 
-/// Fails as initialGrammar does, and with NoAnswer for a plant in which no segment has a child: nothing shows how it goes on.
-[[nodiscard]] Result<simeco::Grammar> predictiveGrammar(const quantify::Measurements& measurements, const EmitOptions& options = {});
+enum class PredictiveStyle { Layered, Thesis };
+
+inline constexpr int kMostStages = 1000;
+
+struct PredictiveOptions {
+  PredictiveStyle style = PredictiveStyle::Layered;
+  int stages = 1;                             ///< ahead, 1 to kMostStages; Thesis: 1
+  std::vector<quantify::Measurements> also = {};   ///< further plants of the species that statistics are taken from; Layered only
+};
+
+/// Fails as initialGrammar does, with BadInput for stages out of range or options that the thesis' style does not have, with what layeredStatistics fails
+/// with, and with NoAnswer where no segment of any plant has a child: nothing shows how it goes on.
+[[nodiscard]] Result<simeco::Grammar> predictiveGrammar(const quantify::Measurements& measurements, const EmitOptions& options = {},
+                                                        const PredictiveOptions& predictive = {});
 
 }  // namespace axil::emit

@@ -4,6 +4,7 @@
 #include "quantify/leaves.hpp"
 #include "simeco/derive.hpp"
 
+#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -25,7 +26,7 @@ Both bothOf(const Skeleton& plant) {
   Both both;
   both.measured = valueOf(quantify::measure(plant));
   both.initial = valueOf(initialGrammar(both.measured));
-  both.predictive = valueOf(predictiveGrammar(both.measured));
+  both.predictive = valueOf(predictiveGrammar(both.measured, {}, {.style = PredictiveStyle::Thesis}));
   return both;
 }
 
@@ -56,7 +57,7 @@ std::set<std::int64_t> wakingSteps(const simeco::Grammar& grammar) {
   return steps;
 }
 
-TEST(PredictiveGrammar, IsTheInitialPlantUntilTheCountersHaveRunOut) {
+TEST(ThesisPrediction, IsTheInitialPlantUntilTheCountersHaveRunOut) {
   const std::uint64_t seed = 51;
   std::cout << "seed " << seed << "\n";
   Rng rng(seed);
@@ -70,7 +71,7 @@ TEST(PredictiveGrammar, IsTheInitialPlantUntilTheCountersHaveRunOut) {
   }
 }
 
-TEST(PredictiveGrammar, EveryTipGoesOnInTheSameStepAndThenItEnds) {
+TEST(ThesisPrediction, EveryTipGoesOnInTheSameStepAndThenItEnds) {
   const std::uint64_t seed = 52;
   std::cout << "seed " << seed << "\n";
   Rng rng(seed);
@@ -91,7 +92,7 @@ TEST(PredictiveGrammar, EveryTipGoesOnInTheSameStepAndThenItEnds) {
   }
 }
 
-TEST(PredictiveGrammar, DrawsWithinTheMeasuredRanges) {
+TEST(ThesisPrediction, DrawsWithinTheMeasuredRanges) {
   const std::vector<glm::dvec3> trunk{{0, 0, 0}, {0, 0.2, 0}, {0.02, 0.4, 0}, {0.02, 0.6, 0.03}};
   Skeleton plant = test::chainThrough(trunk);
   const std::vector<glm::dvec3> low{{0.1, 0.3, 0}, {0.2, 0.4, 0.02}};
@@ -122,7 +123,7 @@ TEST(PredictiveGrammar, DrawsWithinTheMeasuredRanges) {
   EXPECT_GT(seen.size(), 50u);
 }
 
-TEST(PredictiveGrammar, IsWrittenAsTheThesisWritesIt) {
+TEST(ThesisPrediction, IsWrittenAsTheThesisWritesIt) {
   const std::vector<glm::dvec3> trunk{{0, 0, 0}, {0, 0.2, 0}, {0, 0.4, 0.01}};
   Skeleton plant = test::chainThrough(trunk);
   const std::vector<glm::dvec3> side{{0.1, 0.3, 0}};
@@ -134,7 +135,7 @@ TEST(PredictiveGrammar, IsWrittenAsTheThesisWritesIt) {
   EXPECT_NE(text.find("S(1003) > S(5003) -> A(1003) ;"), std::string::npos) << text;
 }
 
-TEST(PredictiveGrammar, ParsesAndChecksWithoutAComplaint) {
+TEST(ThesisPrediction, ParsesAndChecksWithoutAComplaint) {
   const std::uint64_t seed = 53;
   std::cout << "seed " << seed << "\n";
   Rng rng(seed);
@@ -146,7 +147,7 @@ TEST(PredictiveGrammar, ParsesAndChecksWithoutAComplaint) {
   }
 }
 
-TEST(PredictiveGrammar, KeepsItsNumbersApartFromThoseOfALongStem) {
+TEST(ThesisPrediction, KeepsItsNumbersApartFromThoseOfALongStem) {
   std::vector<glm::dvec3> points;
   for (int i = 0; i <= 1500; ++i) points.push_back({0.001 * (i % 2), 0.001 * i, 0});
   const Both both = bothOf(test::chainThrough(points));
@@ -158,9 +159,165 @@ TEST(PredictiveGrammar, KeepsItsNumbersApartFromThoseOfALongStem) {
 TEST(PredictiveGrammar, RefusesAPlantThatShowsNothing) {
   const std::vector<glm::dvec3> stick{{0, 0, 0}, {0, 0.2, 0}};
   const auto m = valueOf(quantify::measure(test::chainThrough(stick)));
-  const auto result = predictiveGrammar(m);
-  ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().code, ErrorCode::NoAnswer);
+  for (const PredictiveStyle style : {PredictiveStyle::Layered, PredictiveStyle::Thesis}) {
+    const auto result = predictiveGrammar(m, {}, {.style = style});
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::NoAnswer);
+  }
+}
+
+TEST(PredictiveGrammar, RefusesStagesOutOfRangeAndWhatTheThesisDoesNotHave) {
+  const std::vector<glm::dvec3> stem{{0, 0, 0}, {0, 0.2, 0}, {0, 0.4, 0}};
+  const auto m = valueOf(quantify::measure(test::chainThrough(stem)));
+  EXPECT_FALSE(predictiveGrammar(m, {}, {.stages = 0}));
+  EXPECT_FALSE(predictiveGrammar(m, {}, {.stages = kMostStages + 1}));
+  EXPECT_FALSE(predictiveGrammar(m, {}, {.style = PredictiveStyle::Thesis, .stages = 2}));
+  EXPECT_FALSE(predictiveGrammar(m, {}, {.style = PredictiveStyle::Thesis, .also = {m}}));
+}
+
+/// The organs that have a length, without those of growing points: (kind, base, direction, length).
+void expectSameShape(const simeco::Plant& a, const simeco::Plant& b) {
+  const auto seen = [](const simeco::Plant& plant) {
+    std::vector<const simeco::Organ*> organs;
+    for (const simeco::Organ& o : plant.organs)
+      if (o.length > 1e-6) organs.push_back(&o);
+    return organs;
+  };
+  const auto x = seen(a);
+  const auto y = seen(b);
+  ASSERT_EQ(x.size(), y.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    ASSERT_EQ(x[i]->kind, y[i]->kind);
+    ASSERT_EQ(x[i]->base, y[i]->base);
+    ASSERT_EQ(x[i]->direction, y[i]->direction);
+    ASSERT_NEAR(x[i]->length, y[i]->length, 1e-9 * x[i]->length);
+    ASSERT_NEAR(x[i]->radius, y[i]->radius, 1e-9 * x[i]->radius);
+  }
+}
+
+TEST(PredictiveGrammar, AtTheMeasuredTimeIsTheMeasuredPlant) {
+  const std::uint64_t seed = 54;
+  std::cout << "seed " << seed << "\n";
+  Rng rng(seed);
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const Measurements m = valueOf(quantify::measure(test::randomTree(rng, {.segments = 25, .collarBranches = i % 3})));
+    const simeco::Grammar initial = valueOf(initialGrammar(m));
+    const simeco::Grammar predictive = valueOf(predictiveGrammar(m, {}, {.stages = 3}));
+    EXPECT_EQ(complaints(predictive), "");
+    EXPECT_EQ(simeco::parseSimeco(simeco::print(predictive)).grammar, predictive);
+    const double measured = settledTime(initial);
+    expectSameShape(valueOf(simeco::plantAt(valueOf(simeco::prepareGrowth(initial)), measured)), valueOf(simeco::plantAt(valueOf(simeco::prepareGrowth(predictive)), measured)));
+  }
+}
+
+/// A trunk of `nodes` nodes with a straight branch at each, as long as the trunk above it.
+Skeleton cone(int nodes) {
+  std::vector<glm::dvec3> trunk;
+  for (int i = 0; i <= nodes; ++i) trunk.push_back({0, 0.1 * i, 0});
+  Skeleton plant = test::chainThrough(trunk);
+  for (int i = 1; i < nodes; ++i) {
+    std::vector<glm::dvec3> side;
+    const double a = 2.4 * i;
+    for (int k = 1; k <= nodes - i; ++k) side.push_back({0.08 * k * std::cos(a), 0.1 * i + 0.05 * k, 0.08 * k * std::sin(a)});
+    test::addStem(plant, StemId{1}, NodeId{i + 1}, side);
+  }
+  return plant;
+}
+
+std::size_t stemsOf(const simeco::Plant& plant) {
+  return static_cast<std::size_t>(std::count_if(plant.organs.begin(), plant.organs.end(), [](const simeco::Organ& o) { return o.kind == simeco::OrganKind::Stem && o.length > 1e-6; }));
+}
+
+TEST(PredictiveGrammar, EveryStageAddsWhatTheRuleOfThePlantAdds) {
+  const Measurements m = valueOf(quantify::measure(cone(6)));
+  for (const int stages : {1, 2, 5}) {
+    // The same rule grown on: a trunk of more nodes.
+    const std::size_t expected = valueOf(quantify::measure(cone(6 + stages))).segments.size();
+    EXPECT_EQ(stemsOf(grownUp(valueOf(predictiveGrammar(m, {}, {.stages = stages})))), expected) << stages;
+  }
+}
+
+TEST(PredictiveGrammar, NoPathGetsLongerThanSaid) {
+  const std::uint64_t seed = 55;
+  std::cout << "seed " << seed << "\n";
+  Rng rng(seed);
+  for (int i = 0; i < 20; ++i) {
+    const Measurements m = valueOf(quantify::measure(test::randomTree(rng, {.segments = 20, .leaves = 0})));
+    int depth = 0;
+    for (const auto& s : m.segments) depth = std::max(depth, s.level + 1);
+    const simeco::Plant plant = grownUp(valueOf(predictiveGrammar(m, {}, {.stages = 4})), {.seed = static_cast<std::uint64_t>(i)});
+    std::vector<int> levels(plant.organs.size(), 0);
+    for (std::size_t o = 0; o < plant.organs.size(); ++o) {
+      const auto& organ = plant.organs[o];
+      const int below = organ.parent ? levels[static_cast<std::size_t>(organ.parent->value)] : 0;
+      levels[o] = below + (organ.length > 1e-6 ? 1 : 0);
+      EXPECT_LE(levels[o], depth + 4);
+    }
+  }
+}
+
+TEST(PredictiveGrammar, WhatOtherPlantsShowCounts) {
+  const std::vector<glm::dvec3> stem{{0, 0, 0}, {0, 0.1, 0}, {0, 0.2, 0}, {0, 0.3, 0}};
+  const Measurements bare = valueOf(quantify::measure(test::chainThrough(stem)));
+  const Measurements branched = valueOf(quantify::measure(cone(6)));
+  EXPECT_EQ(stemsOf(grownUp(valueOf(predictiveGrammar(bare)))), 4u);
+  EXPECT_GT(stemsOf(grownUp(valueOf(predictiveGrammar(bare, {}, {.stages = 3, .also = {branched, branched}})), {.seed = 3})), 6u);
+}
+
+TEST(PredictiveGrammar, YoungLeavesGoOnGrowingToTheUsualSize) {
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i <= 8; ++i) points.push_back({0, 0.1 * i, 0});
+  Skeleton plant = test::chainThrough(points);
+  for (int i = 1; i <= 8; ++i) {
+    const double length = std::min(0.1, 0.025 * (9 - i));  // the last four are still growing
+    const double a = 2.4 * i;
+    const PlantDirection out = PlantDirection::along({std::cos(a), 0.5, std::sin(a)});
+    plant.leaves.push_back({StemId{1}, {{0, 0.1 * i, 0}}, out, perpendicularTo(out, PlantDirection::up()), length, length / 2, "ovate"});
+  }
+  const Measurements m = valueOf(quantify::measure(plant));
+  const simeco::Plant grown = grownUp(valueOf(predictiveGrammar(m, {}, {.stages = 5})));
+  std::size_t full = 0;
+  std::size_t leaves = 0;
+  for (const simeco::Organ& o : grown.organs) {
+    if (o.kind != simeco::OrganKind::Leaf) continue;
+    ++leaves;
+    full += std::abs(o.length - 0.1) < 1e-3;
+  }
+  EXPECT_EQ(leaves, 13u);
+  EXPECT_EQ(full, 13u);
+}
+
+TEST(PredictiveGrammar, OldLeavesFall) {
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i <= 10; ++i) points.push_back({0, 0.1 * i, 0});
+  Skeleton plant = test::chainThrough(points);
+  for (int i = 7; i <= 10; ++i) {
+    const PlantDirection out = PlantDirection::along({std::cos(2.4 * i), 0.5, std::sin(2.4 * i)});
+    plant.leaves.push_back({StemId{1}, {{0, 0.1 * i, 0}}, out, perpendicularTo(out, PlantDirection::up()), 0.1, 0.05, "ovate"});
+  }
+  const Measurements m = valueOf(quantify::measure(plant));
+  const simeco::Growth growth = valueOf(simeco::prepareGrowth(valueOf(predictiveGrammar(m, {}, {.stages = 6}))));
+  const simeco::Plant grown = valueOf(simeco::plantAt(growth, simeco::completeTime(growth)));
+  const auto leaves = std::count_if(grown.organs.begin(), grown.organs.end(), [](const simeco::Organ& o) { return o.kind == simeco::OrganKind::Leaf; });
+  EXPECT_GE(leaves, 3);
+  EXPECT_LE(leaves, 5);
+}
+
+TEST(PredictiveGrammar, AxesThatEndAtTheSameRankEndThereAgain) {
+  std::vector<glm::dvec3> trunk;
+  for (int i = 0; i <= 10; ++i) trunk.push_back({0, 0.1 * i, 0});
+  Skeleton plant = test::chainThrough(trunk);
+  for (int i = 1; i <= 9; ++i) {
+    std::vector<glm::dvec3> side;
+    for (int k = 1; k <= std::min(2, 10 - i); ++k) side.push_back({0.05 * k, 0.1 * i + 0.03 * k, 0.01 * i});
+    test::addStem(plant, StemId{1}, NodeId{i + 1}, side);
+  }
+  const Measurements m = valueOf(quantify::measure(plant));
+  const std::size_t before = m.segments.size();
+  // A stage adds one to the trunk, one to the youngest branch, and one new branch.
+  EXPECT_EQ(stemsOf(grownUp(valueOf(predictiveGrammar(m)))), before + 3);
+  EXPECT_EQ(stemsOf(grownUp(valueOf(predictiveGrammar(m, {}, {.stages = 4})))), before + 12);
 }
 
 }  // namespace
