@@ -10,7 +10,6 @@
 #include "render/picture.hpp"
 #include "simeco/simeco.hpp"
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -88,10 +87,18 @@ Result<GallerySection> arrangements() {
   return section;
 }
 
+/// A flower turned so that one looks into it from a little aside.
+render::PlantMesh turnedToTheViewer(render::PlantMesh mesh) {
+  const glm::vec3 across = glm::normalize(glm::vec3{1, 0, -1});
+  for (render::OrganModel& model : mesh.models)
+    for (render::Placement& placement : model.placements) placement.rotation = glm::angleAxis(0.75f, across);
+  return mesh;
+}
+
 GallerySection flowers() {
   GallerySection section{"Flowers", "花", {}};
   for (const organs::FlowerShape& shape : organs::flowerShapes())
-    section.cells.push_back({shape.name, chineseOf({"form", "flower plan"}, shape.name), render::meshOfParts(organs::flowerParts(shape, organs::Detail::Close), shape.name)});
+    section.cells.push_back({shape.name, chineseOf({"form", "flower plan"}, shape.name), turnedToTheViewer(render::meshOfParts(organs::flowerParts(shape, organs::Detail::Close), shape.name))});
   return section;
 }
 

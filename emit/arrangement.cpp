@@ -17,9 +17,11 @@ Result<simeco::Grammar> arrangementGrammar(const keywords::ArrangementPreset& ar
   if (turns.empty()) turns.push_back(arrangement.divergence.radians());
   PlantText plant;
   plant.name = arrangement.name;
-  plant.stems = stemStage(1, "", num(arrangement.clustered ? 0.0008 : internode_m), 0.0016, 1, "") + stemStage(2, "", "0.04", 0.0016, 1, "");
+  const bool onStalk = arrangement.clustered && arrangement.name != "rosette";
+  plant.stems = stemStage(1, "", num(arrangement.clustered ? 0.0008 : internode_m), 0.0016, 1, "");
+  if (onStalk) plant.stems += stemStage(2, "", "0.04", 0.0016, 1, "");
   plant.leaves = leafStage(1, "elliptic, width 36", leaf_m, 1, glm::dvec3{0.24, 0.46, 0.15});
-  plant.axiom = arrangement.clustered && arrangement.name != "rosette" ? "S(2) A(0)" : "A(0)";
+  plant.axiom = onStalk ? "S(2) A(0)" : "A(0)";
   const int count = std::clamp(arrangement.leavesPerNode, 1, 24);
   for (int n = 0; n < (arrangement.clustered ? std::max(nodes, 12) : nodes); ++n) {
     plant.rules += "            A(" + std::to_string(n) + ") -> S(1) ";

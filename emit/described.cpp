@@ -38,10 +38,10 @@ struct Habit {
   double branchAngle;
   double thickness;     ///< radius of the stem's foot to its height
 };
-constexpr Habit kTree{"tree", 8, 4.5, 0.12, 1, 17, 2, 0.30, 0.85, 0.85, 0.016};
-constexpr Habit kShrub{"shrub", 1.5, 1.8, 0.06, 4, 13, 2, 0.15, 0.50, 0.72, 0.009};
-constexpr Habit kSubshrub{"subshrub", 0.6, 0.9, 0.05, 5, 9, 1, 0.10, 0.40, 0.62, 0.008};
-constexpr Habit kHerb{"herb", 0.4, 1.0, 0.06, 3, 8, 1, 0.15, 0.35, 0.65, 0.008};
+constexpr Habit kTree{"tree", 8, 3.2, 0.12, 1, 17, 2, 0.30, 0.85, 0.85, 0.0075};
+constexpr Habit kShrub{"shrub", 1.5, 1.8, 0.06, 4, 13, 2, 0.15, 0.50, 0.72, 0.0048};
+constexpr Habit kSubshrub{"subshrub", 0.6, 0.9, 0.05, 5, 9, 1, 0.10, 0.40, 0.62, 0.005};
+constexpr Habit kHerb{"herb", 0.4, 1.0, 0.06, 3, 8, 1, 0.15, 0.35, 0.65, 0.0055};
 constexpr Habit kVine{"vine", 2.5, 2.2, 0.07, 2, 22, 1, 0.2, 0.25, 0.9, 0.003};
 
 /// All that the grammar is written from.
@@ -159,7 +159,7 @@ class Designer {
     const double most = std::max({habit.mostDrawn_m, 7 * design_.leaf_m});
     design_.height_m = std::clamp(whole, 0.01, most);
     // Internodes near half a leaf, as many as the habit can carry.
-    const double internode = std::clamp(design_.height_m / habit.nodes, 0.15 * design_.leaf_m, 3.0 * design_.leaf_m);
+    const double internode = std::clamp(design_.height_m / habit.nodes, 0.15 * design_.leaf_m, std::max(1.4 * design_.leaf_m, design_.height_m / 22));
     design_.nodes = std::clamp(static_cast<int>(std::lround(design_.height_m / internode)), 4, 34);
     design_.internode_m = design_.height_m / design_.nodes;
     if (design_.rosette) design_.internode_m = 0.004 * std::max(design_.leaf_m, 0.02);
@@ -260,7 +260,7 @@ class DesignWriter {
     if (d_.petiole_m > 0) text_.stems += stemStage(kPetiole, "", num(d_.petiole_m), std::clamp(0.012 * d_.leaf_m, 0.0003, 0.004), growTime(), "");
     if (d_.rosette && d_.flowers) text_.stems += stemStage(kScape, "", num(0.12 * std::max(d_.height_m, d_.leaf_m)), 0.012 * d_.leaf_m + 0.0005, growTime(), "");
     text_.stems += inflorescence_.stemStages;
-    const std::string old = d_.habit.name == kTree.name ? "FallAge = " + std::to_string(d_.nodes / 2 + 4) + "+random(0, 3); " : "";
+    const std::string old = d_.habit.name == kTree.name ? "FallAge = " + std::to_string(4 * d_.nodes / 5 + 6 + inflorescence_.steps) + "+random(0, 3); " : "";
     text_.leaves += leafStage(1, d_.leafModel, d_.leaf_m, growTime(), d_.leafColour.value_or(glm::dvec3{0.24, 0.46, 0.15}), old);
     text_.rules += inflorescence_.rules;
   }
@@ -269,7 +269,7 @@ class DesignWriter {
     const int stems = d_.rosette ? 1 : d_.habit.stems;
     std::string start;
     for (int i = 1; i < stems; ++i)
-      start += "[" + turn(d_.creeps ? 1.25 : 0.28 + 0.12 * (i % 3), 2.399963 * i) + apex(0, std::to_string(1 + i % 3)) + "] ";
+      start += "[" + turn(d_.creeps ? 1.25 : 0.28 + 0.12 * (i % 3), std::remainder(2.399963 * i, 2 * kPi)) + apex(0, std::to_string(1 + i % 3)) + "] ";
     rule("A(0) -> " + start + (d_.creeps ? turn(1.2) : d_.climbs ? turn(0.15) : turn(0.03)) + apex(0, "0"));
   }
 
@@ -280,7 +280,7 @@ class DesignWriter {
       const double around = 2 * kPi * i / d_.leavesPerNode;
       const std::string lean = "rotr(normal(" + num(d_.rosette ? 1.25 : d_.leafAngle) + ", 0.08))rotu(" + num(around) + "+normal(0, 0.06))";
       text += "[" + lean + (d_.petiole_m > 0 ? "S(" + std::to_string(kPetiole) + ") " + turn(0.12) : "") + "L(1)] ";
-      if (!axil.empty() && i < 2) text += "[rotr(0.5)rotu(" + num(around) + ")" + axil + "] ";
+      if (!axil.empty() && i < (d_.inflorescence.type == InflorescenceType::Solitary ? 2 : 1)) text += "[rotr(0.5)rotu(" + num(around) + ")" + axil + "] ";
     }
     return text;
   }
@@ -300,7 +300,11 @@ class DesignWriter {
     const std::string on = toNextNode() + apex(order, "n+1");
     const bool axillary = d_.flowers && d_.axillary;
     const int flowering = std::max(bare + 1, static_cast<int>(std::lround(0.55 * nodes)));
-    if (axillary) rule(apex(order, "n") + " : " + std::to_string(flowering) + " <= n < " + limit + " -> " + body + leaves(inflorescence()) + on);
+    if (axillary) {
+      // Large inflorescences stand in a few axils, single flowers in most.
+      const double share = d_.inflorescence.type == InflorescenceType::Solitary ? 0.85 : 0.22;
+      rule(apex(order, "n") + " : " + std::to_string(flowering) + " <= n < " + limit + " -> " + num(share) + ": " + body + leaves(inflorescence()) + on + " | " + num(1 - share) + ": " + body + leaves("") + on);
+    }
     if (branches) {
       const int until = axillary ? flowering : nodes - 2;
       const std::string branch = "[rotr(normal(" + num(d_.habit.branchAngle) + ", 0.1))rotu(random(0.2, 1.2))" + apex(order + 1, "n+1") + "] ";

@@ -115,6 +115,8 @@ class Writer {
 
   /// Flowers one after another up an axis, the lowest first, in a spiral.
   void raceme(double pedicel, double lean) {
+    // A length without a count: as many flowers as stand close along it.
+    if (plan_.length > 0 && plan_.flowers == 0) flowers_ = std::clamp(static_cast<int>(std::lround(plan_.length / ((pedicel > 0 ? 0.4 : 0.3) * reach_))), 6, 80);
     const double spacing = lengthOr(flowers_ * (pedicel > 0 ? 0.55 : 0.33) * reach_) / flowers_;
     stalkLength_ = 4 * spacing + reach_;
     axisLength_ = spacing;
@@ -147,7 +149,7 @@ class Writer {
   /// Stalks from different heights that end at one height; the farther out the longer.
   void corymb() {
     const double across = lengthOr(2 * 0.62 * plan_.flowerWidth * std::sqrt(static_cast<double>(flowers_)));
-    const double height = 0.75 * across;
+    const double height = 0.5 * across;
     stalkLength_ = 1.5 * reach_;
     axisLength_ = 0.35 * height / flowers_;
     pedicelLength_ = height;
@@ -238,7 +240,7 @@ class Writer {
     axisLength_ = length / (flowers_ / 5.0);
     axisIsThick_ = true;
     spatheLength_ = 1.75 * length;
-    rule(a(0) + " -> " + s(stalk_) + " [rotr(0.22)rotu(3.141593)L(" + std::to_string(stalk_) + ")] " + a(1, "0"));
+    rule(a(0) + " -> " + s(stalk_) + " [rotr(0.22)rotu(-0.8)L(" + std::to_string(stalk_) + ")] " + a(1, "0"));
     std::string whorl;
     for (int k = 0; k < 5; ++k) whorl += "[rotr(1.45)rotu(" + num(2 * 3.14159265 * k / 5) + ")" + flower() + "] ";
     rule(a(1, "i") + " : i < " + std::to_string(flowers_ / 5) + " -> " + s(axis_) + " " + whorl + "rotr(0)rotu(0.628319)" + a(1, "i+1"));
@@ -258,11 +260,16 @@ class Writer {
 
   void writeStages() {
     const double thick = thickness();
-    out_.stemStages += stemStage(stalk_, "", num(stalkLength_), 1.5 * thick, 3, "");
-    out_.stemStages += stemStage(axis_, axisTakesLength_ ? "(length)" : "", axisTakesLength_ ? "length" : num(axisLength_), axisIsThick_ ? 0.055 * lengthOr(0.12) : 1.2 * thick, 3,
+    const auto uses = [&](int stage) {
+      const std::string word = "S(" + std::to_string(stage);
+      const std::string all = out_.rules + out_.decomposition;
+      return all.find(word + ")") != std::string::npos || all.find(word + ",") != std::string::npos;
+    };
+    if (uses(stalk_)) out_.stemStages += stemStage(stalk_, "", num(stalkLength_), 1.5 * thick, 3, "");
+    if (uses(axis_)) out_.stemStages += stemStage(axis_, axisTakesLength_ ? "(length)" : "", axisTakesLength_ ? "length" : num(axisLength_), axisIsThick_ ? 0.055 * lengthOr(0.12) : 1.2 * thick, 3,
                                  axisHangs_ ? "GravityTropism = 0.9; " : "");
-    out_.stemStages += stemStage(pedicel_, "(length)", "length", 0.8 * thick, 3, "");
-    out_.stemStages += stemStage(rod_, "", num(sideLength_ > 0 ? sideLength_ : axisLength_), thick, 3, "");
+    if (uses(pedicel_)) out_.stemStages += stemStage(pedicel_, "(length)", "length", 0.8 * thick, 3, "");
+    if (uses(rod_)) out_.stemStages += stemStage(rod_, "", num(sideLength_ > 0 ? sideLength_ : axisLength_), thick, 3, "");
     if (spatheLength_ > 0)
       out_.leafStages += leafStage(stalk_, "ovate, apex cuspidate, base rounded, width 62, veins arcuate", spatheLength_, 3, glm::dvec3{0.93, 0.93, 0.88});
     for (std::size_t ring = 0; ring < rings(); ++ring)

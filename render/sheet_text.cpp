@@ -3,8 +3,10 @@
 #include <vtkAutoInit.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
+#include <vtkStdString.h>
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
+#include <vtkUnicodeString.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -40,7 +42,7 @@ SheetText textOf(const std::string& words, int size_px) {
   int size[2] = {0, 0};
   constexpr int dotsPerInch = 72;  // a point is a pixel
   vtkTextRenderer* renderer = vtkTextRenderer::GetInstance();
-  if (renderer == nullptr || !renderer->RenderString(look, words, drawn, size, dotsPerInch, vtkTextRenderer::FreeType)) return {};
+  if (renderer == nullptr || !renderer->RenderString(look.Get(), vtkStdString(words), drawn.Get(), size, dotsPerInch, static_cast<int>(vtkTextRenderer::FreeType))) return {};
   SheetText text{size[0], size[1], {}};
   int extent[6];
   drawn->GetExtent(extent);
