@@ -3,10 +3,19 @@
 
 #include "simeco/engine_pass.hpp"
 
+#include <numeric>
+
 namespace axil::simeco {
 
 Result<std::size_t> Engine::State::generalStep(StepTrace* trace) {
-  if (trace != nullptr) *trace = {};
+  if (trace != nullptr) {
+    trace->rule.clear();
+    trace->begin.clear();
+    trace->maker.clear();
+    trace->rule.reserve(string.size());
+    trace->begin.reserve(string.size() + 1);
+    trace->maker.reserve(expectedModules());
+  }
   around.read(*program, program->main().ignored, needs, string.codes());
   spare.codes.reserve(expectedModules());
   spare.parameters.reserve(expectedNumbers());
@@ -61,6 +70,12 @@ Result<void> Engine::State::findVisits() {
 }
 
 Result<Image> Engine::State::makeImage(const ModuleString& of) {
+  const auto drawnAsItIs = [](const System& system) { return system.homomorphism.empty(); };
+  if (std::all_of(program->systems.begin(), program->systems.end(), drawnAsItIs)) {
+    Image same{of, std::vector<std::uint32_t>(of.size()), {}};
+    std::iota(same.source.begin(), same.source.end(), 0u);
+    return same;
+  }
   Image image{ModuleString(program->symbols), {}, {}};
   Arrays out;
   std::fill(made.begin(), made.end(), 0);

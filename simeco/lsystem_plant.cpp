@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -15,7 +16,16 @@ namespace {
 /// Collects what the turtle draws. Widths stay as drawn; `finish` makes them lengths.
 class PlantMaker : public TurtleSink {
  public:
-  PlantMaker(const Derivation& derivation, const Image& image, const LSystemView& view) : derivation_(derivation), image_(image), view_(view) {}
+  PlantMaker(const Derivation& derivation, const Image& image, const LSystemView& view) : derivation_(derivation), image_(image), view_(view) {
+    std::array<bool, 256> draws{};
+    for (std::size_t code = 0; code < image.string.symbols().size(); ++code) {
+      const std::string& letter = image.string.symbols()[code].letter;
+      draws[code] = letter == "F" || letter == "G" || letter == "~";
+    }
+    const auto organs = std::count_if(image.string.codes().begin(), image.string.codes().end(), [&](SymbolCode code) { return draws[code]; });
+    plant_.organs.reserve(static_cast<std::size_t>(organs));
+    organOf_.reserve(static_cast<std::size_t>(organs));
+  }
 
   void segment(const TurtleSegment& s) override {
     Organ organ;
@@ -106,7 +116,13 @@ class PlantMaker : public TurtleSink {
   }
 
   std::int32_t style(OrganKind kind, int colour, const std::string& model) {
+    // Nearly every thing looks like the one before it.
+    if (!plant_.styles.empty()) {
+      const OrganStyle& last = plant_.styles[static_cast<std::size_t>(lastStyle_)];
+      if (last.kind == kind && last.stage == colour && last.model == model) return lastStyle_;
+    }
     const auto [found, isNew] = styles_.try_emplace({kind, colour, model}, static_cast<std::int32_t>(plant_.styles.size()));
+    lastStyle_ = found->second;
     if (!isNew) return found->second;
     OrganStyle style;
     style.kind = kind;
@@ -138,6 +154,7 @@ class PlantMaker : public TurtleSink {
   const LSystemView& view_;
   Plant plant_;
   std::vector<std::int32_t> organOf_;  ///< of each segment
+  std::int32_t lastStyle_ = 0;
   std::map<std::tuple<OrganKind, int, std::string>, std::int32_t> styles_;
   glm::dvec3 low_{0, 0, 0};
   glm::dvec3 high_{0, 0, 0};

@@ -170,8 +170,6 @@ struct Program {
   std::array<bool, 256> opens{};    ///< "["
   std::array<bool, 256> closes{};   ///< "]"
   int cut = -1;                     ///< code of "%", or -1
-  int detach = -1;                  ///< code of "%(p)", or -1
-  int detached = -1;                ///< code of "%(p, i)", what a detached branch starts with, or -1
   int enter = -1;                   ///< code of "?(id, scale)", or -1
   int leave = -1;                   ///< code of "$", or -1
   std::vector<System> systems;      ///< the main one first

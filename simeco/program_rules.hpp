@@ -17,8 +17,6 @@ class Compiler : protected StatementCompiler {
     readEnvironment(plant.attributes);
     internAll(plant.rules);
     for (const RuleSet& rules : plant.subRules) internAll(rules);
-    // What is detached goes on behind a module of its own.
-    if (codes_.contains({"%", 1})) (void)codeOf("%", 2);
     describeSymbols();
     program_.systems.resize(1 + plant.subRules.size());
     compileSystem(plant.rules, program_.systems[0]);

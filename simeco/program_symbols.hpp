@@ -123,8 +123,6 @@ class SymbolCompiler {
       program_.opens[code] = symbol.letter == "[";
       program_.closes[code] = symbol.letter == "]";
       if (symbol.letter == "%" && symbol.parameters == 0) program_.cut = static_cast<int>(code);
-      if (symbol.letter == "%" && symbol.parameters == 1) program_.detach = static_cast<int>(code);
-      if (symbol.letter == "%" && symbol.parameters == 2) program_.detached = static_cast<int>(code);
       if (symbol.letter == "?" && symbol.parameters == 2) program_.enter = static_cast<int>(code);
       if (symbol.letter == "$" && symbol.parameters == 0) program_.leave = static_cast<int>(code);
     }
