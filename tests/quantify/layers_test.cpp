@@ -5,6 +5,7 @@
 #include "quantify/outlook.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace axil::quantify {
 namespace {
@@ -121,6 +122,30 @@ TEST(Schedule, SteadyAxesAreToldFromEndedOnes) {
   for (std::size_t a = 1; a < s.axes.size(); ++a) {
     const double stages = schedule.plants[0].now - m.at(*s.axes[a].bearer).level;
     EXPECT_EQ(schedule.plants[0].grows[a], static_cast<double>(s.axes[a].segments.size()) == stages);
+  }
+}
+
+/// The figures of docs/prediction.md.
+void printSkill(const char* what, const BacktestSkill& s) {
+  std::printf("%s: length %.1f %% (last again %.1f, thesis %.1f), all organs %.1f %% (%.1f, %.1f), new organs %.1f %% (%.1f, %.1f), intervals hold %.1f %% of %zu lengths, %.0f %% of counts\n", what,
+              100 * s.lengthError, 100 * s.lengthErrorRepeated, 100 * s.lengthErrorThesis, 100 * s.countError, 100 * s.countErrorRepeated, 100 * s.countErrorThesis, 100 * s.newError,
+              100 * s.newErrorRepeated, 100 * s.newErrorThesis, 100 * s.lengthCoverage, s.lengths, 100 * s.countCoverage);
+}
+
+TEST(Backtest, KnownRulesOfManyKindsAreForetold) {
+  const std::pair<const char*, KnownRules> kinds[] = {
+      {"spiral, single branches", {.stages = 11, .lengthNoise = 0.1}},
+      {"decussate pairs", {.stages = 9, .lateralRatio = 0.5, .lengthNoise = 0.08, .branching = 0.6, .branchesAtNode = 2, .divergence_deg = 90, .leaves = 2}},
+      {"few branches, many ends", {.stages = 14, .alongRatio = 0.9, .lengthNoise = 0.12, .branching = 0.4, .ending = 0.15, .leaves = 0}}};
+  for (const auto& [name, rules] : kinds) {
+    const auto test = backtest(manyGrownBy(rules, 66, 8));
+    ASSERT_TRUE(test) << test.error().message;
+    printSkill(name, test->skill);
+    EXPECT_LT(test->skill.lengthError, 0.15);
+    EXPECT_LT(test->skill.countError, 0.1);
+    EXPECT_GT(test->skill.lengthCoverage, 0.85);
+    EXPECT_LT(test->skill.lengthCoverage, 0.96);
+    EXPECT_LT(test->skill.lengthError, test->skill.lengthErrorRepeated);
   }
 }
 
