@@ -22,6 +22,7 @@ using quantify::Measurements;
 using quantify::PlantStructure;
 
 constexpr double kAccuracy = 0.001;  // of the height: how well a node is measured, which description length counts errors against
+constexpr double kReadable = 0.03;   // of the description, that a divergence in the rules may cost
 
 std::string number(double value) {
   const std::string text = shortest(value);
@@ -109,7 +110,7 @@ class ExactText {
       line("Stage " + std::to_string(s + 1) + "(length) {");
       if (!plan_.shapes[s].empty()) line("Model = \"" + plan_.shapes[s] + ".i\";");
       line("GrowRate = length;");
-      if (plan_.leafWidth > 0) line("BroadenRate = " + number(50 * plan_.leafWidth) + "*length;");
+      if (plan_.leafWidth > 0) line("BroadenRate = " + number(roundedTo(50 * plan_.leafWidth, 6)) + "*length;");
       line("}");
     }
     line("}");
@@ -206,8 +207,8 @@ class ExactText {
     const std::string radius = !plan_.radiusMeasured ? "thickness[order]" : number(plan_.radius) + (has("thinner") ? "*" + number(plan_.taper) + "^thinner[row]" : "");
     std::string rule = "A(order, axis, row, twist) : row < start[axis+1] -> S(1, " + length + ", " + radius + ") ";
     if (hasLeaves())
-      rule += "L(0, order, leaves[row], leaves[row+1], " + around("leafAzimuth", "leafDivergence", rank) + ") ";
-    if (hasBranches()) rule += "A(0, order, side[row], side[row+1], " + around("azimuth", "divergence", rank) + ") ";
+      rule += "L(0, order, leaves[row], leaves[row+1], " + around("leafAzimuth", "leafDivergence", "(leaves[row]-leaves[start[axis]])") + ") ";
+    if (hasBranches()) rule += "A(0, order, side[row], side[row+1], " + around("azimuth", "divergence", "(side[row]-side[start[axis]])") + ") ";
     const std::string lean = has("turned") ? number(plan_.leanStep) + "*turned[row+1]" : "0";
     rule += "rotr(max(0, " + usual("bend") + plus(plan_.angleStep, "bent", "row+1") + "))rotu(" + lean + "-twist)A(order, axis, row+1, " + lean + ") ;";
     line(rule);
@@ -266,7 +267,8 @@ Result<simeco::Grammar> exactGrammar(const Measurements& m, const EmitOptions& o
         nearest = nearest == 0 ? plan.worst : std::min(nearest, plan.worst);
         if (plan.worst > wanted.maximumError) continue;
         std::string text = ExactText(m, structure, layout, plan, options).text();
-        const double bits = descriptionLength(text.size(), plan, m.segments.size(), wanted.detail);
+        // An arrangement that is regular is said in the rule, though a table could hide it in slightly fewer bytes.
+        const double bits = descriptionLength(text.size(), plan, m.segments.size(), wanted.detail) * (divergence ? 1 - kReadable : 1);
         if (!best.empty() && bits >= least) continue;
         least = bits;
         best = std::move(text);

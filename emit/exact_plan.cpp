@@ -7,6 +7,8 @@
 #include "quantify/phyllotaxis.hpp"
 #include "quantify/statistics.hpp"
 
+#include <glm/vec2.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -166,9 +168,33 @@ class ExactPlanner {
       if (p.perNode > 1) apart = neat(2 * kPi / p.perNode);
       if (!choice_.divergence || p.samples < 3 || p.chance > 0.05 || p.perNode < 1) continue;
       double& divergence = leaves ? usual.leafDivergence : usual.divergence;
-      const double size = neat(p.divergence.radians());
-      divergence = p.winding == quantify::Winding::Right ? -size : size;
+      const double size = neat(p.divergence.radians() / p.perNode);  // from organ to organ
+      divergence = windingOf(order, leaves, size) * size;
     }
+  }
+
+  /// Whether azimuths of an order rise or fall by `step` from rank to rank: which of the two keeps each axis' organs together.
+  [[nodiscard]] double windingOf(int order, bool leaves, double step) const {
+    double together[2] = {0, 0};
+    for (int a = 0; a < axes(); ++a) {
+      if (layout_.orderOf[at(a)] != order) continue;
+      for (const int way : {0, 1}) {
+        glm::dvec2 sum{0, 0};
+        for (int row = layout_.start[at(a)]; row < layout_.start[at(a) + 1]; ++row)
+          for (const double azimuth : leaves ? structure_.leafAzimuths[layout_.segmentOf[at(row)]] : branchAzimuths(row)) {
+            const double phase = azimuth - (way == 0 ? step : -step) * (leaves ? leavesBelow(row) : branchesBelow(row));
+            if (!std::isnan(phase)) sum += glm::dvec2{std::cos(phase), std::sin(phase)};
+          }
+        together[way] += glm::length(sum);
+      }
+    }
+    return together[0] >= together[1] ? 1 : -1;
+  }
+  [[nodiscard]] std::vector<double> branchAzimuths(int row) const {
+    std::vector<double> azimuths;
+    for (int a = layout_.side[at(row)]; a < layout_.side[at(row) + 1]; ++a)
+      azimuths.push_back(structure_.places[layout_.segmentOf[at(layout_.start[at(a)])]].azimuth);
+    return azimuths;
   }
 
   void setRadii() {
@@ -228,13 +254,13 @@ class ExactPlanner {
         const int bearerOrder = std::max(0, order - 1);
         const OrderUsual& usual = plan_.usual[at(bearerOrder)];
         const double azimuth = structure_.places[layout_.segmentOf[at(layout_.start[at(a)])]].azimuth;
-        if (!std::isnan(azimuth)) branches[at(bearerOrder)].push_back(azimuth - usual.divergence * rankOf(bearer) - usual.apart * (a - layout_.side[at(bearer)]));
+        if (!std::isnan(azimuth)) branches[at(bearerOrder)].push_back(azimuth - usual.divergence * branchesBelow(bearer) - usual.apart * (a - layout_.side[at(bearer)]));
       }
       for (int row = layout_.start[at(a)]; row < layout_.start[at(a) + 1]; ++row) {
         const OrderUsual& usual = plan_.usual[at(order)];
         const auto& azimuths = structure_.leafAzimuths[layout_.segmentOf[at(row)]];
         for (std::size_t l = 0; l < azimuths.size(); ++l)
-          if (!std::isnan(azimuths[l])) leaves[at(order)].push_back(azimuths[l] - usual.leafDivergence * (row - layout_.start[at(a)]) - usual.leafApart * static_cast<double>(l));
+          if (!std::isnan(azimuths[l])) leaves[at(order)].push_back(azimuths[l] - usual.leafDivergence * leavesBelow(row) - usual.leafApart * static_cast<double>(l));
       }
     }
     for (std::size_t order = 0; order < plan_.usual.size(); ++order) {
@@ -249,7 +275,9 @@ class ExactPlanner {
   [[nodiscard]] int axisOf(int row) const {
     return static_cast<int>(std::upper_bound(layout_.start.begin(), layout_.start.end() - 1, row) - layout_.start.begin()) - 1;
   }
-  [[nodiscard]] int rankOf(int row) const { return row - layout_.start[at(axisOf(row))]; }
+  /// Organs that stand on the same axis below the tip of `row`.
+  [[nodiscard]] int branchesBelow(int row) const { return layout_.side[at(row)] - layout_.side[at(layout_.start[at(axisOf(row))])]; }
+  [[nodiscard]] int leavesBelow(int row) const { return layout_.leaves[at(row)] - layout_.leaves[at(layout_.start[at(axisOf(row))])]; }
 
   void growRow(int axis, int row, const StemFrame& base) {
     const int order = layout_.orderOf[at(axis)];
@@ -275,7 +303,7 @@ class ExactPlanner {
       } else {
         const OrderUsual& at_ = plan_.usual[at(bearer >= 0 ? layout_.orderOf[at(axisOf(bearer))] : 0)];
         const int place = bearer >= 0 ? axis - layout_.side[at(bearer)] : axis - 1;
-        const double azimuth = bearer >= 0 ? at_.azimuth + at_.divergence * rankOf(bearer) + at_.apart * place : at_.apart * place;
+        const double azimuth = bearer >= 0 ? at_.azimuth + at_.divergence * branchesBelow(bearer) + at_.apart * place : at_.apart * place;
         plan_.bend[at(row)] = stepsFor(needed.rotr.radians() - at_.insertion, plan_.angleStep);
         const double rotr = std::max(0.0, at_.insertion + plan_.angleStep * plan_.bend[at(row)]);
         plan_.around[at(row)] = turnSteps(needed.rotu.radians() + twist - azimuth, plan_.angleStep);
@@ -297,14 +325,13 @@ class ExactPlanner {
     for (int l = 0; l < layout_.collarLeaves; ++l) addLeaf(*layout_.leafOf[leaf++], base, 0, plan_.usual.front(), 0, l);
     for (std::size_t row = 0; row < rows(); ++row) {
       const int axis = axisOf(static_cast<int>(row));
-      const int rank = static_cast<int>(row) - layout_.start[at(axis)];
       for (int l = layout_.leaves[row]; l < layout_.leaves[row + 1]; ++l)
-        addLeaf(*layout_.leafOf[at(l)], frames_[row], twist_[row], plan_.usual[at(layout_.orderOf[at(axis)])], rank, l - layout_.leaves[row]);
+        addLeaf(*layout_.leafOf[at(l)], frames_[row], twist_[row], plan_.usual[at(layout_.orderOf[at(axis)])], leavesBelow(static_cast<int>(row)), l - layout_.leaves[row]);
     }
   }
-  void addLeaf(const quantify::LeafMeasure& leaf, const StemFrame& under, double twist, const OrderUsual& usual, int rank, int place) {
+  void addLeaf(const quantify::LeafMeasure& leaf, const StemFrame& under, double twist, const OrderUsual& usual, int below, int place) {
     const Turn needed = measuredTurn(under, leaf.direction);
-    const double azimuth = usual.leafAzimuth + usual.leafDivergence * rank + usual.leafApart * place;
+    const double azimuth = usual.leafAzimuth + usual.leafDivergence * below + usual.leafApart * place;
     plan_.leafBend.push_back(stepsFor(needed.rotr.radians() - usual.leafAngle, plan_.leafStep));
     plan_.leafAround.push_back(turnSteps(needed.rotu.radians() + twist - azimuth, plan_.leafStep));
     plan_.leafRoll.push_back(turnSteps(leaf.roll.radians(), plan_.leafStep));
