@@ -4,6 +4,7 @@
 #include "base/table.hpp"
 #include "base/text.hpp"
 #include "keywords/lexicon.hpp"
+#include "keywords/models.hpp"
 #include "keywords/preset_groups.hpp"
 #include "keywords/vocabulary.hpp"
 #include "organs/leaf.hpp"
@@ -172,6 +173,7 @@ Presets presetsOf(const Traits& traits) {
   setSize(presets.leafLength_m, presets, "leafLength_m", traits, "length");
   setSize(presets.leafWidth_m, presets, "leafWidth_m", traits, "width");
   setGroups(presets, traits);
+  presets.leafModel = leafModelOf(traits, withGroups(traits, presets));
   return presets;
 }
 

@@ -76,6 +76,12 @@ double presetWidth(const LeafArrangement& wanted, const keywords::Presets& prese
   return inUnit(presets.leafWidth_m, unit).value_or(0);
 }
 
+/// What the description says about the whole leaf holds where the user named no shape, or the very shape that it names.
+std::string shapeFor(const LeafArrangement& wanted, const keywords::Presets& presets) {
+  if (!wanted.shape.empty() && wanted.shape != presets.leafShape) return wanted.shape;
+  return presets.leafModel.empty() ? presets.leafShape : presets.leafModel;
+}
+
 Result<void> checkNumbers(const LeafArrangement& wanted) {
   const auto angleOk = [](const std::optional<Angle>& a) { return !a || std::isfinite(a->radians()); };
   const auto sizeOk = [](const std::optional<double>& v) { return !v || (std::isfinite(*v) && *v >= 0); };
@@ -118,7 +124,7 @@ Result<LeafPlan> planFor(const LeafArrangement& wanted, const keywords::Presets&
   plan.length = wanted.length ? *wanted.length : inUnit(presets.leafLength_m, unit).value_or(kDefaultLength * index.extent());
   plan.width = wanted.width ? *wanted.width : presetWidth(wanted, presets, plan.length, unit);
   plan.petiole = wanted.petiole.value_or(0);
-  plan.shape = wanted.shape.empty() ? presets.leafShape : wanted.shape;
+  plan.shape = shapeFor(wanted, presets);
   return plan;
 }
 
