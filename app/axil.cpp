@@ -48,6 +48,7 @@ const Command kCommands[] = {
     {"fmt", "Lay a grammar out: one layout, comments kept", addFmt, kLight},
     {"derive", "Derive a grammar's string", addDerive, kLight},
     {"fit-statistics", "Structure and statistics of one plant or many, by branching order and rank", addFitStatistics, kDrawing},
+    {"compare", "Say how near two plants are, or how alike two sets of plants", addCompare, kDrawing},
     {"backtest", "Cut the youngest stage off, foretell it, compare", addBacktest, kDrawing},
     {"grow", "Grow a grammar into a picture, an animation, a mesh or a skeleton file", addGrow, kDrawing},
     {"build", "Do it all: skeleton, measurements, grammars, pictures, mesh and a report", addBuild, kDrawing},
