@@ -2,7 +2,9 @@
 
 #include "base/files.hpp"
 #include "document/json_lines.hpp"
+#include "document/plots.hpp"
 #include "document/skeleton_file.hpp"
+#include "document/statistics_file.hpp"
 #include "render/render.hpp"
 #include "simeco/simeco.hpp"
 
@@ -181,6 +183,16 @@ Result<BuildReport> finish(Output& output, BuildReport report) {
   return report;
 }
 
+/// The plant's statistics by order and rank, as numbers and as charts.
+Result<void> writeLayers(Output& output, const quantify::Measurements& measurements) {
+  const auto statistics = quantify::layeredStatistics(std::span(&measurements, 1));
+  if (!statistics) return statistics.failure();
+  if (auto written = output.write("statistics.json", statisticsJson(*statistics)); !written) return written;
+  const auto charts = statisticsPlot(*statistics);
+  if (!charts) return charts.failure();
+  return output.write("layers.png", *charts);
+}
+
 BuildReport reportOn(const Project& project, const Skeleton& skeleton, const quantify::Measurements& measurements, const simeco::Plant& plant) {
   BuildReport report;
   report.name = project.name;
@@ -215,6 +227,7 @@ Result<BuildReport> build(const OpenProject& open, const fs::path& folder, const
   Output output{std::move(*staging)};
   if (auto w = output.write("skeleton.json", skeletonText(*skeleton)); !w) return w.failure();
   if (auto w = output.write("stems.csv", quantify::segmentsCsv(*measurements)); !w) return w.failure();
+  if (auto w = writeLayers(output, *measurements); !w) return w.failure();
   options.chain.watch.report("writing the grammars", 0.1);
   const auto grammars = writeGrammars(output, open.project, *measurements, options.chain);
   if (!grammars) return grammars.failure();

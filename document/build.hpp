@@ -39,7 +39,7 @@ struct BuildReport {
   std::vector<std::string> files;       ///< written, relative to the folder, in the order they were made
 };
 
-/// Writes skeleton.json, stems.csv, {initial,predictive,structured}.simeco, plant.png, predicted.png, growth/, plant.glb and
+/// Writes skeleton.json, stems.csv, statistics.json, layers.png, {initial,predictive,structured}.simeco, plant.png, predicted.png, growth/, plant.glb and
 /// report.json into `folder`. Fails without a trace in `folder`.
 [[nodiscard]] Result<BuildReport> build(const OpenProject& open, const std::filesystem::path& folder, const BuildOptions& options);
 
