@@ -88,7 +88,8 @@ struct ClickedStem {
   friend bool operator==(const ClickedStem&, const ClickedStem&) = default;
 };
 
-/// A node of the skeleton. `sigma`: standard deviation of each coordinate for a click noise of `SolveOptions::click_px`.
+/// A node of the skeleton. `sigma`: standard deviation of each coordinate for a click noise of `SolveOptions::click_px`, until
+/// `withUncertainty` puts in what clicks and cameras together say.
 struct Node {
   NodeId id;
   PlantPoint position;
