@@ -9,25 +9,31 @@ import sys
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
 TABLES = [
-    ("arrangement", "Leaf arrangement", ["leavesPerNode", "divergence_deg", "clustered"]),
+    ("arrangement", "Leaf arrangement", ["leavesPerNode", "divergence_deg", "cycle_deg", "clustered"]),
     ("leaf_shape", "Shapes", ["shape"]),
-    ("leaf_type", "Leaf types", []),
+    ("leaf_type", "Leaf types", ["leaflets"]),
     ("apex", "Tips", []),
     ("base", "Feet", []),
     ("margin", "Margins", []),
     ("attachment", "Attachment", []),
     ("venation", "Veins", []),
     ("surface", "Surfaces", []),
-    ("life_form", "Life forms", []),
+    ("life_form", "Life forms", ["woody"]),
     ("duration", "Duration", []),
-    ("habit", "Habit", []),
-    ("inflorescence_type", "Inflorescences", []),
-    ("flower_plan", "Flowers", []),
-    ("fruit_type", "Fruits", []),
-    ("colour", "Colours", []),
+    ("habit", "Habit", ["branching"]),
+    ("branching", "Branching of an axis", []),
+    ("orientation", "Orientation", ["angle_deg"]),
+    ("stem_section", "Sections of stems", ["sides"]),
+    ("position", "Positions", []),
+    ("inflorescence_type", "Inflorescences", ["order"]),
+    ("flower_plan", "Flowers", ["shape"]),
+    ("fruit_type", "Fruits", ["shape"]),
+    ("opening", "Opening of fruits", []),
+    ("colour", "Colours", ["rgb"]),
     ("organ", "Organs", ["role", "partOf", "size", "countable"]),
     ("unit", "Units", ["metres"]),
     ("dimension", "Dimensions", []),
+    ("which", "Kinds of an organ", []),
 ]
 HEAD = """# Keywords: what a description can say
 
@@ -40,8 +46,21 @@ read from; `--json` prints them for programs, with the presets that they set. No
 - Counts: "petals 5", "leaflets 5-8 pairs", 小葉8-12對; leaves at a node: "in whorls of 4", "4 leaves per node", 四葉輪生.
 - "ovate to lanceolate" is two traits, "ovate-lanceolate" and 卵狀披針形 are one; "rarely", "usually", "narrowly" stay with the trait as its
   qualifier; "not opposite" and 不對生 say nothing.
-- Words set in *italics* are everyday words too: they count only where an organ is named in the same sentence. A paragraph in which nothing
-  else speaks of a plant yields nothing.
+- Pieces have statements of their own: "calyx tube 6-9 mm, lobes 2-3 mm" gives `"organ":"calyx"` with `"part":"tube"` and `"part":"lobe"`; "basal leaves" gives
+  `"which":"basal"`.
+- Words set in *italics* are everyday words too: they weigh less as evidence that a text is about a plant. A paragraph must earn its reading: parts of plants with
+  statements beside them, or nothing but vocabulary; things of other fields (`foreign.tsv`) count against it.
+- Digits in words, letters in numbers, broken words and units of scanned text are mended where the vocabulary shows what was meant; UTF-8, UTF-16, Big5, GB18030 and
+  files whose lines differ are read. Terms that are not understood are listed, and statements that contradict each other are kept and flagged.
+
+## How well it reads
+
+`ctest -R keywords -V` prints precision, recall and F1 by property for 500 sentences in three scripts. A third of them was held back while the reader was written; on
+the first run over these, before anything was mended by them: arrangement 0.941, leaf and other types 0.967, shape 1.000, margin 0.978, habit 0.919, life form 0.941, length 0.989,
+width 1.000, height 0.833, count 1.000. What they showed was mended afterwards, so today's higher figures on them are no longer those of unseen text. 220 paragraphs about
+other things yield nothing; the reader was tuned on those.
+
+Ids are of the Plant Ontology (PO, CC BY 4.0, Planteome) and the Phenotype and Trait Ontology (PATO, BSD-3-Clause), where one is known for certain; the definitions are our own.
 
 The tables below are made from `keywords/data/*.tsv` by `keywords/vocabulary_docs.py`. A botanist extends them by adding words to a row.
 """
@@ -61,10 +80,10 @@ def words(cell):
 def table(name, title, extra):
     rows = rows_of(name)
     lines = [f"\n## {title} ({len(rows)})\n"]
-    lines.append("| concept | English | 繁體 | 简体 | " + "".join(f"{column} | " for column in extra) + "meaning |")
-    lines.append("|---" * (5 + len(extra)) + "|")
+    lines.append("| concept | English | 繁體 | 简体 | id | " + "".join(f"{column} | " for column in extra) + "meaning |")
+    lines.append("|---" * (6 + len(extra)) + "|")
     for row in rows:
-        cells = [row["concept"], words(row["english"]), words(row["traditional"]), words(row["simplified"])]
+        cells = [row["concept"], words(row["english"]), words(row["traditional"]), words(row["simplified"]), row["id"]]
         lines.append("| " + " | ".join(cells + [row[column] for column in extra] + [row["definition"]]) + " |")
     return "\n".join(lines) + "\n"
 
