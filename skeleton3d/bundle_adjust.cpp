@@ -1,5 +1,5 @@
 #include "skeleton3d/bundle.hpp"
-#include "skeleton3d/bundle_errors.hpp"
+#include "skeleton3d/bundle_errors_interop.hpp"
 
 #include <ceres/ceres.h>
 #include <glog/logging.h>

@@ -1,4 +1,4 @@
-#include "skeleton3d/bundle_errors.hpp"
+#include "skeleton3d/bundle_errors_interop.hpp"
 
 #include "skeleton3d/projection.hpp"
 
