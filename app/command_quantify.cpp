@@ -1,7 +1,11 @@
 #include "app/commands.hpp"
 #include "app/project_options.hpp"
+#include "document/traits.hpp"
+#include "quantify/contradictions.hpp"
 
 #include <CLI/CLI.hpp>
+
+#include <iostream>
 
 namespace axil::app {
 
@@ -12,9 +16,18 @@ struct QuantifyCommand {
   TurningRule turning = TurningRule::Exact;
 };
 
+/// What the measured plant says against the description goes to stderr: it is no part of the table.
+Result<quantify::Measurements> measuredAgainstText(const document::OpenProject& open, const document::ChainOptions& options) {
+  auto measurements = document::measurementsOf(open, options);
+  if (!measurements) return measurements;
+  const auto said = document::traitsOf(open.project);
+  if (!said) return said.failure();
+  for (const auto& contradiction : quantify::contradictionsWith(*said, *measurements)) std::cerr << "warning: " << contradiction.line() << "\n";
+  return measurements;
+}
+
 int run(const QuantifyCommand& command) {
-  return printed(command.project, {.turning = command.turning, .watch = terminalWatch()},
-                 [](const auto& open, const auto& options) { return document::measurementsOf(open, options); }, quantify::segmentsCsv);
+  return printed(command.project, {.turning = command.turning, .watch = terminalWatch()}, measuredAgainstText, quantify::segmentsCsv);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include "document/plots.hpp"
 #include "document/skeleton_file.hpp"
 #include "document/statistics_file.hpp"
+#include "document/traits.hpp"
+#include "quantify/contradictions.hpp"
 #include "render/render.hpp"
 #include "simeco/simeco.hpp"
 
@@ -228,6 +230,9 @@ Result<BuildReport> build(const OpenProject& open, const fs::path& folder, const
   if (auto w = output.write("skeleton.json", skeletonText(*skeleton)); !w) return w.failure();
   if (auto w = output.write("stems.csv", quantify::segmentsCsv(*measurements)); !w) return w.failure();
   if (auto w = writeLayers(output, *measurements); !w) return w.failure();
+  const auto said = traitsOf(open.project);
+  if (!said) return said.failure();
+  for (const auto& contradiction : quantify::contradictionsWith(*said, *measurements)) output.notes.push_back(contradiction.line());
   options.chain.watch.report("writing the grammars", 0.1);
   const auto grammars = writeGrammars(output, open.project, *measurements, options.chain);
   if (!grammars) return grammars.failure();

@@ -142,6 +142,15 @@ std::vector<std::string> arrangementNames() {
   return names;
 }
 
+Angle turnOfNode(const ArrangementPreset& preset, std::size_t k) {
+  if (preset.cycle.empty()) return preset.divergence * static_cast<double>(k);
+  Angle round;
+  for (const Angle turn : preset.cycle) round += turn;
+  Angle sum = round * static_cast<double>(k / preset.cycle.size());
+  for (std::size_t i = 0; i < k % preset.cycle.size(); ++i) sum += preset.cycle[i];
+  return sum;
+}
+
 ArrangementPreset withLeavesPerNode(ArrangementPreset preset, int leavesPerNode) {
   preset.leavesPerNode = std::clamp(leavesPerNode, 1, mostLeavesPerNode);
   if (preset.name == "whorled") preset.divergence = Angle::fromDegrees(180.0 / preset.leavesPerNode);

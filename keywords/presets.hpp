@@ -21,6 +21,8 @@ namespace axil::keywords {
 [[nodiscard]] std::optional<ArrangementPreset> arrangementNamed(std::string_view name);
 /// The English names, in the table's order.
 [[nodiscard]] std::vector<std::string> arrangementNames();
+/// How far the k-th node (from 0) is turned against the first: k times the divergence, or the turns of the cycle one after another.
+[[nodiscard]] Angle turnOfNode(const ArrangementPreset& preset, std::size_t k);
 /// `preset` with another number of leaves at each node; whorls stand above the gaps of the whorl below.
 [[nodiscard]] ArrangementPreset withLeavesPerNode(ArrangementPreset preset, int leavesPerNode);
 

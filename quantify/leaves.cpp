@@ -265,7 +265,7 @@ void addLeaves(Skeleton& skeleton, const LeafPlan& plan, const std::vector<NodeI
   for (std::size_t k = 0; k < places.size(); ++k) {
     for (; stem.nodes[at] != places[k]; ++at) side = carried(side, frames[at].direction, frames[at + 1].direction);
     for (int i = 0; i < plan.preset.leavesPerNode; ++i) {
-      const Angle around = plan.preset.divergence * static_cast<double>(k) + Angle::fromRadians(2 * std::numbers::pi * i / plan.preset.leavesPerNode);
+      const Angle around = keywords::turnOfNode(plan.preset, k) + Angle::fromRadians(2 * std::numbers::pi * i / plan.preset.leavesPerNode);
       skeleton.leaves.push_back(leafAt(plan, chains.node(places[k]).position, frames[at].direction, turned(side, frames[at].direction, around)));
     }
   }

@@ -52,6 +52,15 @@ TEST(Leaves, StandEvenlyAlongTheStemOnOldAndNewNodes) {
   EXPECT_EQ(plant.stems[0].nodes, (std::vector<NodeId>{NodeId{1}, NodeId{6}, NodeId{2}, NodeId{5}, NodeId{4}, NodeId{3}}));
 }
 
+TEST(Leaves, OfACycleTurnByItsTurnsOneAfterAnother) {
+  const Skeleton plant = leafy(post(), onStem("orixate", 6));
+  const std::vector<double> turns{180, 90, 180, 270, 180};
+  ASSERT_EQ(plant.leaves.size(), 6u);
+  const auto azimuth = [&](std::size_t k) { return std::atan2(plant.leaves[k].direction.unit().z, plant.leaves[k].direction.unit().x) * 180 / std::numbers::pi; };
+  // Turning about +Y runs from +Z to +X, against atan2(z, x).
+  for (std::size_t k = 0; k < turns.size(); ++k) EXPECT_NEAR(std::remainder(azimuth(k) - azimuth(k + 1) - turns[k], 360), 0, 1e-6) << k;
+}
+
 TEST(Leaves, SnapToANodeWithinTwoPercentAndInterpolateElsewhere) {
   Skeleton stem = post();
   stem.nodes[1].position.at.y = 0.515;
