@@ -94,12 +94,15 @@ TEST(EngineLimits, StepsTimeLoopsAndDepthAreLimited) {
   for (int i = 0; i < 150; ++i) deep = "(" + deep + "+1)";
   options.limits.expressionDepth = 100;
   EXPECT_TRUE(has(endOf(std::string(kHead) + "Axiom: A(1)\nA(x) --> A(" + deep + ")\nendlsystem\n", options), "nested deeper than the limit of 100"));
+  // So deep that no other limit comes before the time.
   options = small();
+  options.limits.modules = 10'000'000;
+  options.limits.bytes = std::size_t{1} << 30;
   options.limits.seconds = 0.05;
   for (const char* text : {"Lsystem: 1\nderivation length: 1\nAxiom: AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA\nB --> B\ndecomposition\nmaximum depth: 1000000\nA --> A\nendlsystem\n",
                            "Lsystem: 1\nderivation length: 1\nAxiom: AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA\nB --> B\nhomomorphism\nmaximum depth: 1000000\nA --> A\nendlsystem\n"}) {
     const std::string message = endOf(text, options);
-    EXPECT_TRUE(has(message, "limit") && has(message, "A --> A")) << message;
+    EXPECT_TRUE(has(message, "longer than its limit of 0.05 s") && has(message, "A --> A")) << message;
   }
 }
 

@@ -78,7 +78,9 @@ void expectTokensCover(const std::string& text, Language language, const std::st
     ASSERT_GT(t.span.end, t.span.begin) << name;
     ASSERT_LE(t.span.end, text.size()) << name;
     const std::string between = text.substr(done, t.span.begin - done);
-    if (language == Language::LSystem) EXPECT_EQ(between.find_first_not_of(" \t\r\n\f\v\\"), std::string::npos) << name << ": '" << between << "'";
+    if (language == Language::LSystem) {
+      EXPECT_EQ(between.find_first_not_of(" \t\r\n\f\v\\"), std::string::npos) << name << ": '" << between << "'";
+    }
     done = t.span.end;
   }
 }

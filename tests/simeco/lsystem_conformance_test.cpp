@@ -1,6 +1,7 @@
 // What L-systems derive: the cases of lsystem/*.l, and every shared model against the string that the reference program wrote.
 
 #include "base/files.hpp"
+#include "lsystem_compare.hpp"
 #include "simeco/lsystem_derive.hpp"
 #include "simeco/lsystem_language.hpp"
 #include "simeco/lsystem_text.hpp"
@@ -75,49 +76,6 @@ TEST(LSystemDerivation, EveryExampleOfTheReferenceDerivesWhatItSays) {
   EXPECT_GE(examples, 6);
 }
 
-/// A number in `text` from `at` on, with its end.
-struct Numeral {
-  double value = 0;
-  std::size_t end = 0;
-};
-std::optional<Numeral> numeralAt(const std::string& text, std::size_t at) {
-  const char c = text[at];
-  const bool starts = (c >= '0' && c <= '9') || c == '-' || c == 'i' || c == 'n';
-  if (!starts) return std::nullopt;
-  const std::size_t end = std::min(text.find_first_of(",)", at), text.size());
-  char* stopped = nullptr;
-  const std::string word = text.substr(at, end - at);
-  const double value = std::strtod(word.c_str(), &stopped);
-  if (*stopped != '\0') return std::nullopt;
-  return Numeral{value, end};
-}
-
-bool sameNumber(double a, double b, double tolerance) {
-  if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
-  if (std::isinf(a) || std::isinf(b)) return a == b;
-  return std::fabs(a - b) <= std::max(tolerance, 1e-5 * std::max(std::fabs(a), std::fabs(b)));
-}
-
-/// Letters equal, numbers in parentheses within 1e-5 of each other (or `tolerance`); the first difference, else empty.
-std::string difference(const std::string& ours, const std::string& theirs, double tolerance) {
-  std::size_t i = 0, j = 0;
-  while (i < ours.size() && j < theirs.size()) {
-    const bool number = i > 0 && (ours[i - 1] == '(' || ours[i - 1] == ',');
-    const auto a = number ? numeralAt(ours, i) : std::nullopt;
-    const auto b = number ? numeralAt(theirs, j) : std::nullopt;
-    if (a && b && sameNumber(a->value, b->value, tolerance)) {
-      i = a->end;
-      j = b->end;
-    } else if (ours[i] == theirs[j]) {
-      ++i, ++j;
-    } else {
-      break;
-    }
-  }
-  if (i == ours.size() && j == theirs.size()) return {};
-  return "ours ..." + ours.substr(i < 20 ? 0 : i - 20, 60) + "\ntheirs ..." + theirs.substr(j < 20 ? 0 : j - 20, 60);
-}
-
 std::string expectedText(const fs::path& path) {
   std::string text = readFile(path).value();
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -164,7 +122,7 @@ class Model {
 
   void expectText(const std::string& ours, const std::string& file) {
     const double tolerance = facts_.value("tolerance", 0.0);
-    EXPECT_EQ(difference(ours, expectedText(path_.parent_path() / file), tolerance), "") << file;
+    EXPECT_EQ(test::difference(ours, expectedText(path_.parent_path() / file), tolerance), "") << file;
   }
 
   /// What one derivation of a stochastic model counts must lie where those with many seeds lie: within five of their standard
