@@ -1,4 +1,5 @@
 #include "document/lookup.hpp"
+#include "ui/export_file.hpp"
 #include "ui/widgets_interop.hpp"
 
 #include <algorithm>
@@ -24,6 +25,7 @@ std::string lowerExtension(const fs::path& path) {
 bool isWanted(const fs::path& path, DialogKind kind) {
   const std::string extension = lowerExtension(path);
   if (kind == DialogKind::Photo) return extension == ".jpg" || extension == ".jpeg" || extension == ".png" || extension == ".webp" || extension == ".bmp";
+  if (kind == DialogKind::ExportFile) return canExport(path);
   return extension == ".axil";
 }
 
@@ -53,6 +55,7 @@ Taken chosen(const Panel& panel, const fs::path& path) {
   const DialogKind kind = std::exchange(dialog.kind, DialogKind::None);
   if (kind == DialogKind::Open) panel.state.wishes.push_back(WishOpen{path});
   if (kind == DialogKind::SaveAs) panel.state.wishes.push_back(WishSaveAs{path.extension() == ".axil" ? path : fs::path(path.string() + ".axil")});
+  if (kind == DialogKind::ExportFile) panel.state.wishes.push_back(WishExportFile{path});
   if (kind != DialogKind::Photo) return std::nullopt;
   const std::string photo = photoName(panel, path);
   if (document::viewNamed(panel.project, dialog.view)) return document::Step{document::RelinkPhoto{dialog.view, photo}};
@@ -101,7 +104,7 @@ Taken fileDialog(const Panel& panel) {
   ImGui::PopStyleVar(2);
   const std::string viewKey = "view_" + dialog.view;
   ImGui::PushFont(font(Face::Heading));
-  const char* title = dialog.kind == DialogKind::Open ? "open_project" : dialog.kind == DialogKind::SaveAs ? "save_as" : "photo_for";
+  const char* title = dialog.kind == DialogKind::Open ? "open_project" : dialog.kind == DialogKind::SaveAs ? "save_as" : dialog.kind == DialogKind::ExportFile ? "export_as" : "photo_for";
   ImGui::TextUnformatted(filled(panel.t(title), {{"view", panel.texts.has(viewKey) ? panel.t(viewKey) : dialog.view}}).c_str());
   ImGui::PopFont();
   if (button(panel, "folder_up")) dialog.folder = dialog.folder.has_parent_path() ? dialog.folder.parent_path() : dialog.folder;
@@ -120,7 +123,7 @@ Taken fileDialog(const Panel& panel) {
   const bool entered = ImGui::InputText("##name", &dialog.name, ImGuiInputTextFlags_EnterReturnsTrue);
   landmark(panel, "dialog_name");
   ImGui::SameLine(0, panel.px(8));
-  const bool pressed = button(panel, dialog.kind == DialogKind::SaveAs ? "save" : "open", Emphasis::Primary, panel.px(95));
+  const bool pressed = button(panel, dialog.kind == DialogKind::SaveAs || dialog.kind == DialogKind::ExportFile ? "save" : "open", Emphasis::Primary, panel.px(95));
   if ((entered || pressed) && !dialog.name.empty()) taken = chosen(panel, dialog.folder / dialog.name);
   ImGui::SameLine(0, panel.px(8));
   if (button(panel, "cancel", Emphasis::Plain, panel.px(95))) dialog.kind = DialogKind::None;

@@ -1,6 +1,7 @@
 #include "ui/following.hpp"
 
 #include "document/measurable.hpp"
+#include "ui/grammar_links.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -24,28 +25,11 @@ void measureReach(GrownGrammar& grown, const simeco::Plant& plant) {
   grown.reach = std::max(glm::length(box.size()) / 2, 1e-9);
 }
 
-std::shared_ptr<const GrownGrammar> grow(const simeco::Grammar& grammar, std::string text, std::uint64_t seed) {
-  auto grown = std::make_shared<GrownGrammar>();
-  grown->text = std::move(text);
-  const simeco::Parsed parsed = simeco::parseSimeco(grown->text);
-  grown->diagnostics = parsed.diagnostics;
-  for (const Diagnostic& d : simeco::check(parsed.grammar)) grown->diagnostics.push_back(d);
-  const auto growth = simeco::prepareGrowth(grammar, {.seed = seed});
-  if (!growth) {
-    grown->trouble = growth.error();
-    return grown;
-  }
-  grown->growth = *growth;
-  grown->end = simeco::completeTime(*growth);
-  if (const auto plant = simeco::plantAt(*growth, grown->end)) measureReach(*grown, *plant);
-  else grown->trouble = plant.error();
-  return grown;
-}
-
 /// A grammar that has been grown, and what it was made of.
 struct Kept {
   std::shared_ptr<const simeco::Grammar> grammar;
   std::uint64_t seed = 0;
+  simeco::Environment environment = {};
   std::shared_ptr<const GrownGrammar> grown;
 };
 
@@ -62,7 +46,7 @@ class Follow {
     const auto part = following->skeleton.trouble ? showPart(*following, question.open) : std::nullopt;
     following->photos = derived_.photoTroubles(question.open);
     document::Derived& source = part ? part_ : derived_;
-    for (const GrammarKind kind : kKinds) addGrammar(*following, source, part ? *part : question.open, kind);
+    for (const GrammarKind kind : kKinds) addGrammar(*following, source, part ? *part : question.open, kind, question.environment);
     following->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     return following;
   }
@@ -82,14 +66,15 @@ class Follow {
     return shown;
   }
 
-  void addGrammar(Following& following, document::Derived& derived, const document::OpenProject& open, GrammarKind kind) {
+  void addGrammar(Following& following, document::Derived& derived, const document::OpenProject& open, GrammarKind kind, const simeco::Environment& environment) {
     const auto at = static_cast<std::size_t>(kind);
     const auto grammar = derived.grammar(open, kind);
     const auto text = derived.grammarText(open, kind);
     following.grammarTroubles[at] = grammar.trouble;
     const std::uint64_t seed = open.project.seed;
     Kept& kept = kept_[at];
-    if (grammar.good && text.good && (kept.grammar != grammar.good || kept.seed != seed)) kept = {grammar.good, seed, grow(*grammar.good, *text.good, seed)};
+    const bool same = kept.grammar == grammar.good && kept.seed == seed && kept.environment == environment;
+    if (grammar.good && text.good && !same) kept = {grammar.good, seed, environment, grownFrom(*text.good, seed, environment)};
     following.grammars[at] = kept.grown;
   }
 
@@ -99,6 +84,29 @@ class Follow {
 };
 
 }  // namespace
+
+std::shared_ptr<const GrownGrammar> grownFrom(std::string text, std::uint64_t seed, const simeco::Environment& environment) {
+  auto grown = std::make_shared<GrownGrammar>();
+  grown->text = std::move(text);
+  const simeco::Parsed parsed = simeco::parseSimeco(grown->text);
+  grown->diagnostics = parsed.diagnostics;
+  if (!parsed.ok()) {
+    grown->trouble = Error{ErrorCode::BadGrammar, parsed.diagnostics.front().message, {}};
+    return grown;
+  }
+  for (const Diagnostic& d : simeco::check(parsed.grammar)) grown->diagnostics.push_back(d);
+  grown->segments = segmentsOfLines(grown->text, parsed.grammar);
+  const auto growth = simeco::prepareGrowth(parsed.grammar, {.seed = seed, .environment = environment});
+  if (!growth) {
+    grown->trouble = growth.error();
+    return grown;
+  }
+  grown->growth = *growth;
+  grown->end = simeco::completeTime(*growth);
+  if (const auto plant = simeco::plantAt(*growth, grown->end)) measureReach(*grown, *plant);
+  else grown->trouble = plant.error();
+  return grown;
+}
 
 Follower::Work followingWork() {
   auto follow = std::make_shared<Follow>();

@@ -5,6 +5,7 @@
 
 #include "document/derived.hpp"
 #include "render/types.hpp"
+#include "simeco/environment.hpp"
 #include "simeco/growth.hpp"
 #include "simeco/language.hpp"
 #include "ui/worker.hpp"
@@ -22,6 +23,7 @@ namespace axil::ui {
 struct GrownGrammar {
   std::string text;
   std::vector<Diagnostic> diagnostics;   ///< of the text, read back
+  std::vector<int> segments;             ///< for each line the measured segment it speaks of; -1: none (ui/grammar_links.hpp)
   std::optional<simeco::Growth> growth;
   double end = 0;                        ///< when all is grown
   PlantPoint middle;                     ///< of the grown plant
@@ -47,10 +49,21 @@ struct Following {
 struct FollowQuestion {
   document::OpenProject open;
   std::uint64_t revision = 0;
+  simeco::Environment environment = {};
 };
 
 using Follower = Worker<FollowQuestion, std::shared_ptr<const Following>>;
 /// What a Follower does, question after question; what has not changed is kept between them.
 [[nodiscard]] Follower::Work followingWork();
+
+/// A text that is being written: what is wrong with it, and its growth where there is one.
+[[nodiscard]] std::shared_ptr<const GrownGrammar> grownFrom(std::string text, std::uint64_t seed, const simeco::Environment& environment);
+
+struct DraftQuestion {
+  std::string text;
+  std::uint64_t seed = 1;
+  simeco::Environment environment = {};
+};
+using DraftGrower = Worker<DraftQuestion, std::shared_ptr<const GrownGrammar>>;
 
 }  // namespace axil::ui

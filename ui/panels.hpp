@@ -5,6 +5,7 @@
 
 #include "document/session.hpp"
 #include "ui/following.hpp"
+#include "ui/ghosts.hpp"
 #include "ui/photos.hpp"
 #include "ui/state.hpp"
 
@@ -31,9 +32,15 @@ struct Panel {
   const Texts& texts;
   const Palette& palette;
   const Texture& plantPicture;
+  const std::vector<Ghost>& ghosts;
+  const std::shared_ptr<const GrownGrammar>& draft;  ///< what follows from the grammar that is being written; null: nothing yet
   const ExportState& exporting;
   UiState& state;
 
+  /// What is shown and grown: the draft where it grows, else the last that did.
+  [[nodiscard]] const GrownGrammar* shown() const {
+    return state.grammarDraft && draft && draft->growth ? draft.get() : following.grammar(state.kind);
+  }
   [[nodiscard]] const char* t(std::string_view key) const { return texts(key, state.language); }
   [[nodiscard]] float px(float designed) const { return designed * state.scale; }
 };
@@ -59,7 +66,7 @@ void wayPanel(const Panel& panel);
 [[nodiscard]] Taken photoPane(const Panel& panel, int pane, Area area);
 void plantPane(const Panel& panel, Area area);
 [[nodiscard]] Taken descriptionText(const Panel& panel, Area area);
-void grammarText(const Panel& panel, Area area);
+[[nodiscard]] Taken grammarText(const Panel& panel, Area area);
 void welcome(const Panel& panel, Area area);
 
 // ---- right, bottom, on top -----------------------------------------------------------------------------------------------

@@ -2,7 +2,6 @@
 #include "ui/widgets_interop.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <imgui_stdlib.h>
 
 namespace axil::ui {
@@ -107,110 +106,6 @@ Taken descriptionText(const Panel& panel, Area area) {
   ImGui::PopStyleVar();
   ImGui::PopStyleColor();
   return taken;
-}
-
-// ---- the grammar --------------------------------------------------------------------------------------------------------------
-
-namespace {
-
-enum class Ink { Plain, Word, Number, Comment, Quoted };
-
-struct InkedPiece {
-  std::size_t begin = 0, end = 0;
-  Ink ink = Ink::Plain;
-};
-
-bool isWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
-/// For the eye only: comments, quoted texts, numbers, and words that begin with a capital letter.
-std::vector<InkedPiece> inked(std::string_view line) {
-  std::vector<InkedPiece> pieces;
-  for (std::size_t at = 0; at < line.size();) {
-    std::size_t end = at + 1;
-    Ink ink = Ink::Plain;
-    if (line.substr(at, 2) == "//") {
-      end = line.size();
-      ink = Ink::Comment;
-    } else if (line[at] == '"') {
-      end = std::min(line.find('"', at + 1), line.size() - 1) + 1;
-      ink = Ink::Quoted;
-    } else if (std::isdigit(static_cast<unsigned char>(line[at])) != 0) {
-      while (end < line.size() && (isWord(line[end]) || line[end] == '.')) ++end;
-      ink = Ink::Number;
-    } else if (isWord(line[at])) {
-      while (end < line.size() && isWord(line[end])) ++end;
-      ink = std::isupper(static_cast<unsigned char>(line[at])) != 0 ? Ink::Word : Ink::Plain;
-    }
-    if (!pieces.empty() && ink == Ink::Plain && pieces.back().ink == Ink::Plain) pieces.back().end = end;
-    else pieces.push_back({at, end, ink});
-    at = end;
-  }
-  return pieces;
-}
-
-Colour colourOf(const Palette& palette, Ink ink) {
-  switch (ink) {
-    case Ink::Plain: return palette.text;
-    case Ink::Word: return palette.accent;
-    case Ink::Number: return palette.warning;
-    case Ink::Comment: return palette.quiet;
-    case Ink::Quoted: return palette.error;
-  }
-  return palette.text;
-}
-
-std::vector<std::string_view> linesOf(std::string_view text) {
-  std::vector<std::string_view> lines;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    lines.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return lines;
-}
-
-void grammarLine(const Panel& panel, std::string_view line, int number, float gutter) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float height = ImGui::GetTextLineHeight();
-  const std::string& find = panel.state.find;
-  if (!find.empty() && line.find(find) != std::string_view::npos)
-    list.AddRectFilled({at.x, at.y - 1}, {at.x + ImGui::GetContentRegionAvail().x, at.y + height + 1}, panel.palette.accentSoft, 2);
-  const std::string shown = std::to_string(number);
-  list.AddText({at.x + gutter - panel.px(14) - ImGui::CalcTextSize(shown.c_str()).x, at.y}, withAlpha(panel.palette.quiet, 140), shown.c_str());
-  float x = at.x + gutter;
-  for (const InkedPiece& piece : inked(line)) {
-    const char* begin = line.data() + piece.begin;
-    const char* end = line.data() + piece.end;
-    list.AddText({x, at.y}, colourOf(panel.palette, piece.ink), begin, end);
-    x += ImGui::CalcTextSize(begin, end).x;
-  }
-  ImGui::Dummy({x - at.x, height});
-}
-
-}  // namespace
-
-void grammarText(const Panel& panel, Area area) {
-  ImGui::SetCursorScreenPos({area.x, area.y});
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, panel.palette.panel);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {panel.px(8), panel.px(12)});
-  ImGui::BeginChild("##grammar", {area.width, area.height}, false, ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
-  const auto* grown = panel.following.grammar(panel.state.kind);
-  if (grown == nullptr) {
-    quiet(panel, panel.t("grammar_none"));
-  } else {
-    ImGui::PushFont(font(Face::Mono));
-    const auto lines = linesOf(grown->text);
-    const float gutter = ImGui::CalcTextSize("00000").x + panel.px(14);
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(lines.size()));
-    while (clipper.Step())
-      for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) grammarLine(panel, lines[static_cast<std::size_t>(i)], i + 1, gutter);
-    ImGui::PopFont();
-  }
-  ImGui::EndChild();
-  ImGui::PopStyleVar();
-  ImGui::PopStyleColor();
 }
 
 // ---- nothing is open ----------------------------------------------------------------------------------------------------------

@@ -173,7 +173,7 @@ Taken inspector(const Panel& panel) {
 
 void timeline(const Panel& panel, Area area) {
   UiState& state = panel.state;
-  const auto* grown = panel.following.grammar(state.kind);
+  const auto* grown = panel.shown();
   const double end = grown != nullptr ? grown->end : 0;
   const auto* measured = panel.following.grammar(document::GrammarKind::Initial);
   ImDrawList& list = *ImGui::GetWindowDrawList();

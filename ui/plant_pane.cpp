@@ -30,6 +30,9 @@ const skeleton3d::Node* nodeWith(const skeleton3d::Skeleton& skeleton, skeleton3
 /// What is shown is not of the present project: it could not be measured.
 bool isPast(const Panel& panel) { return panel.following.skeleton.trouble && !panel.following.partly; }
 
+/// A draft with errors: the last that grew stays.
+bool isStale(const Panel& panel) { return panel.state.grammarDraft && panel.draft && !panel.draft->growth; }
+
 void drawSkeleton(const View3d& view) {
   const auto& shown = view.panel.following.skeleton;
   if (!shown.good) return;
@@ -55,6 +58,35 @@ void drawSkeleton(const View3d& view) {
   }
 }
 
+/// Other seeds of the same grammar, behind what is shown.
+void drawGhosts(const View3d& view) {
+  for (std::size_t i = 0; i < view.panel.ghosts.size(); ++i) {
+    const Colour colour = withAlpha(colourOf(document::StemId(static_cast<int>(i) + 2)), 120);
+    for (const auto& [from, to] : view.panel.ghosts[i]) view.list.AddLine(view.onScreen(from), view.onScreen(to), colour, view.panel.px(1.3f));
+  }
+}
+
+double distanceTo(ImVec2 p, ImVec2 a, ImVec2 b) {
+  const glm::dvec2 along(b.x - a.x, b.y - a.y), to(p.x - a.x, p.y - a.y);
+  const double length2 = glm::dot(along, along);
+  return glm::length(to - along * (length2 > 0 ? std::clamp(glm::dot(to, along) / length2, 0.0, 1.0) : 0.0));
+}
+
+/// Beside every node: the stem segment under the mouse, which is known by the node that it ends at.
+void pickSegment(const View3d& view, const skeleton3d::Skeleton& skeleton) {
+  double best = static_cast<double>(view.panel.px(8));
+  for (const skeleton3d::Stem& stem : skeleton.stems)
+    for (std::size_t i = 1; i < stem.nodes.size(); ++i) {
+      const auto* from = nodeWith(skeleton, stem.nodes[i - 1]);
+      const auto* to = nodeWith(skeleton, stem.nodes[i]);
+      if (from == nullptr || to == nullptr || !document::nodeWithId(view.panel.project, to->id)) continue;
+      const double distance = distanceTo(ImGui::GetIO().MousePos, view.onScreen(from->position), view.onScreen(to->position));
+      if (distance > best) continue;
+      best = distance;
+      view.panel.state.selection = {.node = to->id, .others = {}};
+    }
+}
+
 void pick(const View3d& view) {
   const auto& skeleton = view.panel.following.skeleton.good;
   if (!skeleton) return;
@@ -65,8 +97,9 @@ void pick(const View3d& view) {
     const float distance = std::hypot(at.x - mouse.x, at.y - mouse.y);
     if (distance > best || !document::nodeWithId(view.panel.project, node.id)) continue;
     best = distance;
-    view.panel.state.selection.node = node.id;
+    view.panel.state.selection = {.node = node.id, .others = {}};
   }
+  if (best == view.panel.px(10)) pickSegment(view, *skeleton);
 }
 
 void turn(const View3d& view, bool hovered, bool active) {
@@ -105,7 +138,7 @@ void plantPane(const Panel& panel, Area area) {
   ImGui::SetCursorScreenPos(low);
   ImGui::InvisibleButton("turn", {area.width, area.height}, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
   const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
-  const auto* grown = panel.following.grammar(panel.state.kind);
+  const auto* grown = panel.shown();
   View3d view{panel, area, {}, list};
   turn(view, hovered, active);
   if (grown == nullptr) {
@@ -124,12 +157,14 @@ void plantPane(const Panel& panel, Area area) {
   list.PushClipRect(low, high, true);
   if (panel.state.showPlant && panel.plantPicture.id() != 0)
     list.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(panel.plantPicture.id())), low, high, {0, 0}, {1, 1},
-                         isPast(panel) ? rgb(0xFFFFFF, 120) : rgb(0xFFFFFF), panel.px(4));
-  if (panel.state.showSkeleton) drawSkeleton(view);
+                         isPast(panel) || isStale(panel) ? rgb(0xFFFFFF, 120) : rgb(0xFFFFFF), panel.px(4));
+  drawGhosts(view);
+  if (panel.state.showSkeleton && !panel.state.grammarDraft) drawSkeleton(view);
   ImGui::PushFont(font(Face::Small));
   const float pad = panel.px(7);
   const float width = chip(list, {area.x + pad, area.y + pad}, std::string("4  ") + panel.t("view_plant"), withAlpha(panel.palette.panel, 225), panel.palette.text, pad);
-  if (panel.following.skeleton.trouble)
+  if (isStale(panel)) chip(list, {area.x + 1.6f * pad + width, area.y + pad}, panel.t("last_good"), withAlpha(panel.palette.panel, 225), panel.palette.warning, pad);
+  else if (panel.following.skeleton.trouble)
     chip(list, {area.x + 1.6f * pad + width, area.y + pad}, panel.t(panel.following.partly ? "so_far" : "last_good"), withAlpha(panel.palette.panel, 225), panel.palette.warning, pad);
   ImGui::PopFont();
   const float size = panel.px(26);

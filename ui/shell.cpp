@@ -141,10 +141,12 @@ Taken centre(const Panel& panel, Area area) {
       plantPane(panel, right);
       return taken;
     }
-    case Way::Grammar:
-      grammarText(panel, left);
-      plantPane(panel, right);
-      return std::nullopt;
+    case Way::Grammar: {
+      const bool wide = panel.state.sideBySide && !panel.state.grammarDraft;
+      Taken taken = grammarText(panel, wide ? area : left);
+      if (!wide) plantPane(panel, right);
+      return taken;
+    }
     case Way::Grow:
       plantPane(panel, area);
       return std::nullopt;

@@ -6,6 +6,7 @@
 #include "base/angle.hpp"
 #include "document/chain.hpp"
 #include "document/command.hpp"
+#include "simeco/environment.hpp"
 #include "ui/clicking.hpp"
 #include "ui/preferences.hpp"
 #include "ui/texts.hpp"
@@ -96,6 +97,14 @@ struct FactDraft {
   std::string unit;
 };
 
+/// The grammar while it is written: nothing of the project changes until it is applied.
+struct GrammarDraft {
+  std::string text;
+  document::GrammarKind kind = document::GrammarKind::Initial;
+  std::uint64_t version = 1;   ///< counts changes of the text
+  std::size_t cursor = 0;      ///< byte of the text
+};
+
 /// What a click in a photo does while photos are set up.
 enum class PhotoTool { None, Origin, Length };
 
@@ -116,6 +125,9 @@ struct WishGoTo {
 struct WishExport {
   std::filesystem::path folder;
 };
+struct WishExportFile {
+  std::filesystem::path file;  ///< its ending says what is written
+};
 struct WishCancelExport {};
 struct WishQuit {};
 /// The sample, and a card that leads through it.
@@ -127,7 +139,8 @@ struct WishRecover {
 struct WishForget {
   std::filesystem::path journal;
 };
-using Wish = std::variant<WishSave, WishSaveAs, WishOpen, WishNew, WishUndo, WishRedo, WishGoTo, WishExport, WishCancelExport, WishQuit, WishTour, WishRecover, WishForget>;
+using Wish = std::variant<WishSave, WishSaveAs, WishOpen, WishNew, WishUndo, WishRedo, WishGoTo, WishExport,  //
+                          WishExportFile, WishCancelExport, WishQuit, WishTour, WishRecover, WishForget>;
 
 /// Something the user must decide before it goes on.
 struct Unsaved {
@@ -145,7 +158,7 @@ struct Notice {
   std::string text;
 };
 
-enum class DialogKind { None, Open, SaveAs, Photo, ExportFolder };
+enum class DialogKind { None, Open, SaveAs, Photo, ExportFile };
 struct FileDialogState {
   DialogKind kind = DialogKind::None;
   std::filesystem::path folder;
@@ -192,6 +205,12 @@ struct UiState {
   bool playing = false;
   double speed = 1;  ///< derivation steps a second
   std::string find;
+  bool sideBySide = false;                                         ///< all three grammars at once
+  std::optional<GrammarDraft> grammarDraft;
+  std::optional<int> shownSegment;                                 ///< whose lines were scrolled to last
+  std::optional<int> wantedLine;                                   ///< of the grammar, from 0: to be scrolled to
+  simeco::Environment environment;                                 ///< that the plant is grown in
+  int ghosts = 0;                                                  ///< how many other seeds are shown
 
   std::string descriptionDraft;
   bool describing = false;         ///< the draft is being written

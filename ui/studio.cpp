@@ -5,7 +5,9 @@
 #include "document/lookup.hpp"
 #include "document/replay.hpp"
 #include "ui/actions.hpp"
+#include "ui/export_file.hpp"
 #include "ui/export_work.hpp"
+#include "ui/ghosts.hpp"
 #include "ui/fonts_interop.hpp"
 #include "ui/plant_picture.hpp"
 #include "ui/shell.hpp"
@@ -53,6 +55,11 @@ struct Studio::Inside {
   FontBook fonts = {};
   std::uint64_t revision = 1;         // of the project; counts changes
   std::uint64_t asked = 0;
+  simeco::Environment askedEnvironment = {};
+  std::shared_ptr<const GrownGrammar> draft = {};
+  std::uint64_t askedDraft = 0;             // version of the draft
+  std::vector<Ghost> ghosts = {};
+  std::optional<GhostQuestion> askedGhosts = {};
   std::shared_ptr<const Following> following = std::make_shared<Following>();
   Texture plantTexture = {};
   std::optional<PlantQuestion> drawn = {};  // what was asked for last
@@ -64,12 +71,16 @@ struct Studio::Inside {
   // Workers last: their threads end first.
   Photos photos;
   Follower follower;
+  DraftGrower draftGrower;
+  GhostGrower ghostGrower;
   PlantDrawer drawer;
   Exporter exporter;
+  FileWriter fileWriter;
 
   Inside(StudioOptions given, Texts words)
       : options(std::move(given)), texts(std::move(words)), session(Session::untitled({.stateFolder = options.stateFolder, .chain = {}})), photos(options.wake), follower(followingWork, options.wake),
-        drawer(drawingWork, options.wake), exporter(options.wake) {
+        draftGrower([] { return [](const DraftQuestion& q) { return grownFrom(q.text, q.seed, q.environment); }; }, options.wake), ghostGrower(ghostWork, options.wake),
+        drawer(drawingWork, options.wake), exporter(options.wake), fileWriter(fileWork, options.wake) {
     state.preferences = readPreferences(options.stateFolder);
     state.theme = options.theme.value_or(state.preferences.theme.value_or(Theme::Dark));
     state.language = options.language.value_or(state.preferences.language.value_or(Language::English));
@@ -236,6 +247,7 @@ struct Studio::Inside {
                             exporting = {.running = true, .what = "", .share = 0, .done = {}};
                             exporter.begin({session.openProject(), w.folder});
                           },
+                          [&](const WishExportFile& w) { exportFile(w.file); },
                           [&](const WishCancelExport&) { exporter.cancel(); },
                           [&](const WishQuit&) {
                             if (!mayLeave(wish)) return;
@@ -251,9 +263,17 @@ struct Studio::Inside {
 
   void takeAnswers() {
     if (auto answer = follower.take()) following = std::move(*answer);
-    if (asked != revision) {
+    if (asked != revision || askedEnvironment != state.environment) {
       asked = revision;
-      follower.ask({session.openProject(), revision});
+      askedEnvironment = state.environment;
+      askedDraft = 0;
+      follower.ask({session.openProject(), revision, state.environment});
+    }
+    followDraft();
+    followGhosts();
+    if (auto answer = fileWriter.take()) {
+      if (answer->written) tell(NoticeKind::Said, filled(t("saved"), {{"file", answer->file.string()}}));
+      else fail(answer->written.error());
     }
     photos.update(session.openProject());
     if (auto picture = drawer.take()) {
@@ -263,6 +283,54 @@ struct Studio::Inside {
     }
     if (auto answer = exporter.take()) finishExport(*answer);
     if (exporting.running) std::tie(exporting.what, exporting.share) = exporter.progress();
+  }
+
+  void followDraft() {
+    if (auto answer = draftGrower.take()) draft = std::move(*answer);
+    if (!state.grammarDraft) {
+      draft.reset();
+      askedDraft = 0;
+    } else if (askedDraft != state.grammarDraft->version) {
+      askedDraft = state.grammarDraft->version;
+      draftGrower.ask({state.grammarDraft->text, session.project().seed, state.environment});
+    }
+  }
+
+  /// Ghosts follow the time as fast as they can.
+  void followGhosts() {
+    if (auto answer = ghostGrower.take()) ghosts = std::move(*answer);
+    const auto& grammar = following->grammars[static_cast<std::size_t>(state.kind)];
+    if (state.ghosts == 0 || !grammar || state.grammarDraft) {
+      ghosts.clear();
+      askedGhosts.reset();
+      return;
+    }
+    GhostQuestion question{grammar, session.project().seed, state.ghosts, state.time < 0 ? grammar->end : std::min(state.time, grammar->end), state.environment};
+    const bool same = askedGhosts && askedGhosts->grammar == question.grammar && askedGhosts->seed == question.seed && askedGhosts->ghosts == question.ghosts &&
+                      askedGhosts->time == question.time && askedGhosts->environment == question.environment;
+    if (same || ghostGrower.working()) return;
+    askedGhosts = question;
+    ghostGrower.ask(std::move(question));
+  }
+
+  /// The grammar that is shown: the draft where it grows.
+  [[nodiscard]] const GrownGrammar* shown() const {
+    return state.grammarDraft && draft && draft->growth ? draft.get() : following->grammar(state.kind);
+  }
+
+  void exportFile(const fs::path& file) {
+    const GrownGrammar* grown = shown();
+    FileQuestion question{.file = file, .text = state.grammarDraft ? state.grammarDraft->text : grown != nullptr ? grown->text : std::string(), .growth = {}, .camera = {}};
+    if (grown != nullptr) {
+      question.growth = grown->growth;
+      question.end = grown->end;
+      question.time = state.time < 0 ? grown->end : std::min(state.time, grown->end);
+      question.size_px = {1440, 1440};
+      question.camera = orbitCamera(state.orbit, grown->middle, grown->reach, question.size_px);
+    }
+    question.unit = session.project().unit;
+    tell(NoticeKind::Said, filled(t("writing"), {{"file", file.filename().string()}}));
+    fileWriter.ask(std::move(question));
   }
 
   void finishExport(const ExportAnswer& answer) {
@@ -275,7 +343,7 @@ struct Studio::Inside {
 
   /// Asks for the plant as it should look now, unless it looks so already. A turning plant is drawn small, to keep up.
   void askForPlant() {
-    const auto* grown = following->grammar(state.kind);
+    const auto* grown = shown();
     if (grown == nullptr || !grown->growth || state.plantPaneSize.x < 16 || state.plantPaneSize.y < 16 || !state.showPlant || drawingTrouble) return;
     const double factor = state.turningPlant || state.playing ? 0.5 : 1;
     PlantQuestion question{*grown->growth, state.time < 0 ? grown->end : std::min(state.time, grown->end), {}, {}};
@@ -288,13 +356,13 @@ struct Studio::Inside {
   }
 
   [[nodiscard]] bool plantIsBehind() const {
-    const auto* grown = following->grammar(state.kind);
+    const auto* grown = shown();
     if (grown == nullptr || !grown->growth || state.plantPaneSize.x < 16 || !state.showPlant || drawingTrouble) return false;
     return drawer.busy() || !drawn || drawn->size_px != state.plantPaneSize;
   }
 
   void play() {
-    const auto* grown = following->grammar(state.kind);
+    const auto* grown = shown();
     if (!state.playing || grown == nullptr || grown->end <= 0) return;
     constexpr double kSeconds = 8;  // from nothing to the end
     state.time = std::max(0.0, state.time) + static_cast<double>(ImGui::GetIO().DeltaTime) * grown->end / kSeconds * state.speed;
@@ -310,7 +378,7 @@ struct Studio::Inside {
       applyLook(palette, state.scale);
     }
     play();
-    const Panel panel{session, session.project(), *following, photos, texts, palette, plantTexture, exporting, state};
+    const Panel panel{session, session.project(), *following, photos, texts, palette, plantTexture, ghosts, draft, exporting, state};
     std::vector<Step> steps;
     if (Taken taken = actOnKeys(panel)) steps.push_back(std::move(*taken));
     for (Step& taken : shell(panel)) steps.push_back(std::move(taken));
@@ -384,7 +452,7 @@ void Studio::frame() {
 
 bool Studio::isBusy() const {
   const Inside& in = *inside_;
-  return in.state.playing || in.follower.busy() || in.asked != in.revision || in.photos.busy() || in.plantIsBehind() || in.exporting.running;
+  return in.state.playing || in.follower.busy() || in.asked != in.revision || in.draftGrower.busy() || in.ghostGrower.busy() || in.fileWriter.busy() || in.photos.busy() || in.plantIsBehind() || in.exporting.running;
 }
 
 bool Studio::hasEnded() const { return inside_->ended; }

@@ -1,0 +1,112 @@
+// Grammar and photos, both directions: a line is its stem, an edited number moves clicks, a draft with errors leaves the last plant.
+#include "document/lookup.hpp"
+#include "ui/grammar_links.hpp"
+#include "ui/headless.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace axil::ui {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kLantana = fs::path(AXIL_SAMPLES_DIR) / "lantana" / "lantana.axil";
+
+HeadlessStudio opened() {
+  auto headless = HeadlessStudio::open({}, 1400, 900);
+  EXPECT_TRUE(headless) << headless.error().message;
+  if (auto open = headless->studio().open(kLantana); !open) ADD_FAILURE() << open.error().message;
+  return std::move(*headless);
+}
+
+void run(HeadlessStudio& headless, std::string_view lines) {
+  if (auto ran = headless.run(lines); !ran) ADD_FAILURE() << ran.error().message;
+}
+
+/// The text with the first GrowRate of a stage made longer.
+std::string stretched(std::string text, int stage, double factor) {
+  const std::size_t at = text.find("Stage " + std::to_string(stage) + " {");
+  const std::size_t rate = text.find("GrowRate = ", at) + 11, end = text.find(';', rate);
+  return text.substr(0, rate) + std::to_string(std::stod(text.substr(rate, end - rate)) * factor) + text.substr(end);
+}
+
+TEST(GrammarLinks, EveryStageAndRuleOfAStemSpeaksOfItsSegment) {
+  const std::string text =
+      "EcoSystem 1.0 \"e\" {\n    Plant \"p\" {\n        Stem {\n            Stage 2 {\n                GrowRate = 1.0;\n            }\n            Stage 3 {}\n        }\n"
+      "        Axiom w = S(2);\n        w: S(2) -> S(0) S(3);\n    }\n}\n";
+  const auto parsed = simeco::parseSimeco(text);
+  const auto segments = segmentsOfLines(text, parsed.grammar);
+  ASSERT_GE(segments.size(), 8u);
+  EXPECT_EQ(segments[0], -1);
+  EXPECT_EQ(segments[3], 0);
+  EXPECT_EQ(segments[4], 0);
+  EXPECT_EQ(segments[6], 1);
+}
+
+TEST(GrammarPane, ALongerSegmentInTheGrammarMovesTheClicksOfWhatGrowsOnIt) {
+  HeadlessStudio headless = opened();
+  run(headless, "ui wait\nui way grammar\nui press kind_initial\nui wait\nui press grammar_edit\nui wait\n");
+  auto& draft = headless.studio().state().grammarDraft;
+  ASSERT_TRUE(draft.has_value());
+  const document::Project before = headless.studio().session().project();
+  draft->text = stretched(draft->text, 2, 1.2);
+  ++draft->version;
+  run(headless, "ui wait\nui press grammar_apply\nui wait\n");
+  const document::Project after = headless.studio().session().project();
+  EXPECT_FALSE(headless.studio().state().grammarDraft.has_value());
+  ASSERT_EQ(after.nodes.size(), before.nodes.size());
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < after.nodes.size(); ++i)
+    if (after.nodes[i].node.clicks != before.nodes[i].node.clicks) ++moved;
+  EXPECT_EQ(moved, before.nodes.size() - 1) << "all but the base stand higher";
+  run(headless, "ui key ctrl+z\n");
+  EXPECT_EQ(headless.studio().session().project(), before) << "one step";
+}
+
+TEST(GrammarPane, ADraftWithErrorsKeepsTheLastPlantAndSaysWhereItIsWrong) {
+  HeadlessStudio headless = opened();
+  run(headless, "ui wait\nui way grammar\nui press grammar_edit\nui wait\n");
+  auto& draft = headless.studio().state().grammarDraft;
+  ASSERT_TRUE(draft.has_value());
+  draft->text.replace(draft->text.find("Stem"), 4, "Stme");
+  ++draft->version;
+  run(headless, "ui wait\n");
+  const auto picture = headless.picture();
+  ASSERT_TRUE(picture);
+  run(headless, "ui press discard\nui wait\n");
+  EXPECT_FALSE(headless.studio().state().grammarDraft.has_value());
+}
+
+TEST(GrowPane, EnvironmentAndGhostsComeAndGo) {
+  HeadlessStudio headless = opened();
+  run(headless, "ui wait\nui way grow\nui wait\nui press env_rain\nui wait\n");
+  EXPECT_TRUE(headless.studio().state().environment.rainRate.has_value());
+  headless.studio().state().ghosts = 3;
+  const auto with = headless.picture();
+  headless.studio().state().ghosts = 0;
+  const auto without = headless.picture();
+  ASSERT_TRUE(with && without);
+  EXPECT_NE(with->rgb, without->rgb);
+}
+
+TEST(GrowPane, WritesWhatTheFilesEndingSays) {
+  HeadlessStudio headless = opened();
+  const fs::path folder = fs::temp_directory_path() / "axil_export_test";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  run(headless, "ui wait\nui way grow\nui wait\n");
+  for (const char* ending : {".png", ".glb", ".obj", ".ply", ".simeco", ".l", ".lpy", ".mtg"}) {
+    headless.studio().state().wishes.push_back(WishExportFile{folder / (std::string("plant") + ending)});
+    run(headless, "ui wait\n");
+    EXPECT_TRUE(fs::exists(folder / (std::string("plant") + ending))) << ending << ": " << (headless.studio().state().notice ? headless.studio().state().notice->text : "");
+  }
+  headless.studio().state().wishes.push_back(WishExportFile{folder / "plant.doc"});
+  run(headless, "ui wait\n");
+  ASSERT_TRUE(headless.studio().state().notice.has_value());
+  EXPECT_EQ(headless.studio().state().notice->kind, NoticeKind::Failed);
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace axil::ui
