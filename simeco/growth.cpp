@@ -245,21 +245,35 @@ class Recorder {
 
 // ---- one plant -------------------------------------------------------------------------------------------------------
 
-/// The host's environments, the first from the beginning on; the grammar's own obstacles stand in each.
-Result<std::vector<Scene>> scenesOf(const Grammar& grammar, const GrowOptions& options) {
-  const auto own = obstaclesIn(grammar);
+/// Environments through time, ready to grow in; the grammar's own obstacles stand in each.
+class Scenes {
+ public:
+  explicit Scenes(std::vector<Obstacle> own) : own_(std::move(own)) {}
+
+  Result<void> add(double from, Environment environment) {
+    environment.obstacles.insert(environment.obstacles.end(), own_.begin(), own_.end());
+    if (auto checked = checkEnvironment(environment); !checked) return checked;
+    if (!scenes_.empty() && scenes_.back().from == from) scenes_.pop_back();
+    scenes_.push_back({from, std::move(environment), nullptr});
+    Scene& scene = scenes_.back();
+    if (!scene.environment.obstacles.empty()) scene.obstacles = std::make_shared<const ObstacleField>(scene.environment.obstacles);
+    return {};
+  }
+  [[nodiscard]] std::span<const Scene> all() const { return scenes_; }
+
+ private:
+  std::vector<Obstacle> own_;
+  std::vector<Scene> scenes_;
+};
+
+/// What the host says before anything grows.
+Result<Scenes> scenesOf(const Grammar& grammar, const GrowOptions& options) {
+  auto own = obstaclesIn(grammar);
   if (!own) return own.failure();
-  std::vector<Scene> scenes;
-  const auto add = [&](double from, Environment environment) {
-    environment.obstacles.insert(environment.obstacles.end(), own->begin(), own->end());
-    if (!scenes.empty() && scenes.back().from == from) scenes.pop_back();
-    scenes.push_back({from, environment, nullptr});
-    if (!environment.obstacles.empty()) scenes.back().obstacles = std::make_shared<const ObstacleField>(environment.obstacles);
-  };
-  add(0, options.environment);
-  for (const EnvironmentChange& change : options.changes) add(change.time, change.environment);
-  for (const Scene& scene : scenes)
-    if (auto checked = checkEnvironment(scene.environment); !checked) return checked.failure();
+  Scenes scenes(*std::move(own));
+  if (auto added = scenes.add(0, options.environment); !added) return added.failure();
+  for (const EnvironmentChange& change : options.changes)
+    if (auto added = scenes.add(change.time, change.environment); !added) return added.failure();
   return scenes;
 }
 
@@ -292,16 +306,12 @@ std::optional<std::int64_t> stepsFor(const GrowOptions& options, const Engine& e
 
 /// `rules` are those of the plants before; this plant's are added.
 Result<PlantHistory> recordPlant(const Grammar& grammar, std::size_t index, std::vector<RuleInfo>& rules, const GrowOptions& options,
-                                 std::span<const Scene> scenes, std::vector<OrganStyle>& styles) {
+                                 std::vector<OrganStyle>& styles) {
   const PlantGrammar& plant = grammar.plants[index];
   auto history = standingPlace(grammar, plant);
   if (!history) return history;
   const auto stages = readStages(grammar, plant, styles);
   if (!stages) return stages.failure();
-  auto surroundings = surroundingsOf(grammar, plant, scenes);
-  if (!surroundings) return surroundings.failure();
-  history->surroundings = *std::move(surroundings);
-  if (auto clear = checkStandsClear(*history, plant.name); !clear) return clear.failure();
   auto program = compile(grammar, index, {options.limits.expressionDepth});
   if (!program) return program.failure();
   const auto firstRule = static_cast<std::int32_t>(rules.size());
@@ -328,9 +338,69 @@ Result<PlantHistory> recordPlant(const Grammar& grammar, std::size_t index, std:
   history->steps = (*engine)->stepsDone();
   history->bodies = recorder.takeBodies();
   history->habits = recorder.takeHabits();
-  history->bends = bendsOf(*history);
   return history;
 }
+
+/// Puts the plants into their surroundings.
+Result<void> surround(GrowthData& data, const Grammar& grammar, std::span<const Scene> scenes) {
+  for (std::size_t i = 0; i < data.plants.size(); ++i) {
+    PlantHistory& history = data.plants[i];
+    auto surroundings = surroundingsOf(grammar, grammar.plants[i], scenes);
+    if (!surroundings) return surroundings.failure();
+    history.surroundings = *std::move(surroundings);
+    if (auto clear = checkStandsClear(history, grammar.plants[i].name); !clear) return clear;
+    history.bends = bendsOf(history);
+  }
+  return {};
+}
+
+// ---- what happens between steps ----------------------------------------------------------------------------------------
+
+Plant momentOf(const GrowthData& data, double time) {
+  Plant plant{data.name, time, data.styles, {}};
+  plant.rules = data.rules;
+  for (const PlantHistory& history : data.plants) addOrgans(data, history, time, plant.organs);
+  return plant;
+}
+
+/// Goes through the steps in order of time: first the host may change the environment, then light falls.
+class Seasons {
+ public:
+  Seasons(GrowthData& data, const Grammar& grammar, const GrowOptions& options, Scenes scenes)
+      : data_(data), grammar_(grammar), options_(options), scenes_(std::move(scenes)), now_(options.environment) {}
+
+  Result<void> run() {
+    const bool lit = asksForLight(data_);
+    if (!lit && !options_.betweenSteps) return {};
+    const double upTo = data_.upToTime.value_or(fullSizeTime(data_));
+    const auto times = stepTimes(data_, upTo);
+    if (!times) return times.failure();
+    for (const double time : *times) {
+      if (options_.watch.cancelled()) return fail(ErrorCode::Cancelled, "growing was stopped while light was computed");
+      options_.watch.report("computing light", upTo > 0 ? time / upTo : 1);
+      if (options_.betweenSteps)
+        if (auto asked = ask(time); !asked) return asked;
+      if (lit) addLightStep(data_, time);
+    }
+    return {};
+  }
+
+ private:
+  Result<void> ask(double time) {
+    auto answer = options_.betweenSteps(momentOf(data_, time), now_);
+    if (!answer) return answer.failure();
+    if (*answer == now_) return {};
+    now_ = *std::move(answer);
+    if (auto added = scenes_.add(time, now_); !added) return added;
+    return surround(data_, grammar_, scenes_.all());
+  }
+
+  GrowthData& data_;
+  const Grammar& grammar_;
+  const GrowOptions& options_;
+  Scenes scenes_;
+  Environment now_;
+};
 
 }  // namespace
 
@@ -342,21 +412,24 @@ Result<Growth> prepareGrowth(const Grammar& grammar, const GrowOptions& options)
   if (options.steps && *options.steps < 0) return fail(ErrorCode::BadInput, "a plant cannot be derived for " + std::to_string(*options.steps) + " steps");
   if (auto checked = checkEnvironment(options.environment); !checked) return checked.failure();
   if (auto checked = checkChanges(options.changes); !checked) return checked.failure();
-  const auto scenes = scenesOf(grammar, options);
+  if (options.betweenSteps && !options.changes.empty())
+    return fail(ErrorCode::BadInput, "growth was given both a list of changes and a host that changes the environment between steps; give one of them");
+  auto scenes = scenesOf(grammar, options);
   if (!scenes) return scenes.failure();
   auto data = std::make_shared<GrowthData>();
   std::vector<RuleInfo> rules;
   data->name = grammar.name;
   data->turning = options.turning;
   for (std::size_t i = 0; i < grammar.plants.size(); ++i) {
-    auto plant = recordPlant(grammar, i, rules, options, *scenes, data->styles);
+    auto plant = recordPlant(grammar, i, rules, options, data->styles);
     if (!plant) return plant.failure();
     const bool complete = plant->settled || options.steps;
     if (options.upToTime && !complete) data->upToTime = options.upToTime;
     data->plants.push_back(*std::move(plant));
   }
   data->rules = RuleList(std::move(rules));
-  if (auto lit = addLight(*data, data->upToTime.value_or(fullSizeTime(*data)), options.watch); !lit) return lit.failure();
+  if (auto surrounded = surround(*data, grammar, scenes->all()); !surrounded) return surrounded.failure();
+  if (auto lived = Seasons(*data, grammar, options, *std::move(scenes)).run(); !lived) return lived.failure();
   return Growth(std::move(data));
 }
 
@@ -365,10 +438,7 @@ Result<Plant> plantAt(const Growth& growth, double time) {
   if (!(time >= 0) || !std::isfinite(time)) return fail(ErrorCode::BadInput, "a plant's time must be a number of at least 0, not " + shortest(time));
   if (data.upToTime && time > *data.upToTime)
     return fail(ErrorCode::BadInput, "growth was prepared up to time " + shortest(*data.upToTime) + "; time " + shortest(time) + " is later");
-  Plant plant{data.name, time, data.styles, {}};
-  plant.rules = data.rules;
-  for (const PlantHistory& history : data.plants) addOrgans(data, history, time, plant.organs);
-  return plant;
+  return momentOf(data, time);
 }
 
 double completeTime(const Growth& growth) { return fullSizeTime(growth.data()); }

@@ -25,7 +25,7 @@
 /// environment that come later change nothing earlier. Units: lengths as in the grammar, time as in DeriveTime.
 /// Fails as `derive` does; with BadGrammar for attributes that are no numbers; with BadInput for a time that is negative or not
 /// a number, or later than growth was prepared for, for an environment that makes no sense, for a plant inside an obstacle; with
-/// LimitReached where light would be computed more than 100 000 times.
+/// LimitReached where light or a host's environment would be computed more than 100 000 times.
 /// Sources: L-Grammar Generator 2005, section 3.4; docs/simeco.md, "Growth".
 
 #include "base/turning.hpp"
@@ -34,6 +34,7 @@
 #include "simeco/plant.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -55,6 +56,9 @@ struct GrowOptions {
   std::optional<std::int64_t> steps = {};  ///< derive so many steps; later times show the same organs grown on
   Environment environment = {};            ///< what it says counts over the grammar's attributes
   std::vector<EnvironmentChange> changes = {};  ///< in time order; each is the whole environment from its time on
+  /// Instead of `changes`, where what the plants have become decides: asked at every step of any plant, in order of time from 0 on, with all
+  /// plants as they stand and the environment that they stand in; what it answers is the environment from then on. A failure ends growth.
+  std::function<Result<Environment>(const Plant& plant, const Environment& now)> betweenSteps = {};
 };
 
 struct GrowthData;

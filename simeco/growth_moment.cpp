@@ -32,14 +32,17 @@ std::size_t surroundingsAt(const PlantHistory& plant, double time) {
 class Lengthening {
  public:
   Lengthening(const GrowthData& data, const PlantHistory& plant, const Body& body)
-      : plant_(plant), body_(body), lightSteps_(data.lightSteps), born_(plant.bornAt(body)), steady_(plant.surroundings.size() == 1 && body.lit.empty()) {
+      : plant_(plant), body_(body), lightSteps_(data.lightSteps), born_(plant.bornAt(body)) {
     if (!body.lit.empty()) firstLight_ = holding(lightSteps_, born_, [](double t) { return t; });
   }
 
   [[nodiscard]] double between(double from, double to) const {
-    if (steady_) return body_.rate * plant_.surroundings.front().response * (to - from);
     const double end = born_ + to;
     double time = born_ + from, vigour = 0;
+    // Computed like this whatever comes later, so that a later change touches no bit of what came before it.
+    const std::size_t first = surroundingsAt(plant_, time);
+    const bool steady = body_.lit.empty() && (first + 1 == plant_.surroundings.size() || plant_.surroundings[first + 1].from >= end);
+    if (steady) return body_.rate * plant_.surroundings[first].response * (to - from);
     while (time < end) {
       const std::size_t now = surroundingsAt(plant_, time);
       double until = now + 1 < plant_.surroundings.size() ? std::min(end, plant_.surroundings[now + 1].from) : end;
@@ -62,12 +65,10 @@ class Lengthening {
   const Body& body_;
   const std::vector<double>& lightSteps_;
   double born_;
-  bool steady_;
   std::size_t firstLight_ = 0;
 };
 
 double lengthAt(const GrowthData& data, const PlantHistory& plant, const Body& body, double age) {
-  if (plant.surroundings.size() == 1 && body.lit.empty()) return body.rate * plant.surroundings.front().response * std::min(age, body.growTime);
   return Lengthening(data, plant, body).between(0, std::min(age, body.growTime));
 }
 
@@ -221,23 +222,12 @@ double fullSizeTime(const GrowthData& data) {
   return complete;
 }
 
-// ---- light -----------------------------------------------------------------------------------------------------------
-
-namespace {
-
-constexpr std::size_t kMostLightSteps = 100'000;
-/// A blade without a radius is about this share of its length wide; of the rectangle around it a blade covers two thirds.
-constexpr double kBladeWidth = 0.5, kBladeCover = 2.0 / 3;
-constexpr int kPatchesAnOrgan = 3;
-
-bool asksForLight(const PlantHistory& plant, const Body& body) { return plant.habits[static_cast<std::size_t>(body.habit)].lightResponse > 0; }
-
-/// All times at which a plant of the ecosystem takes a step, or would if it still took any.
-Result<std::vector<double>> lightSteps(const GrowthData& data, double upTo) {
+Result<std::vector<double>> stepTimes(const GrowthData& data, double upTo) {
+  constexpr std::size_t most = 100'000;
   std::vector<double> times;
   for (const PlantHistory& plant : data.plants) {
-    if (upTo / plant.deriveTime > static_cast<double>(kMostLightSteps))
-      return fail(ErrorCode::LimitReached, "light would have to be computed more than " + std::to_string(kMostLightSteps) +
+    if (upTo / plant.deriveTime > static_cast<double>(most))
+      return fail(ErrorCode::LimitReached, "light or the environment would have to be computed more than " + std::to_string(most) +
                                                " times; grow the plants for a shorter time, or raise DeriveTime");
     for (std::int64_t step = 0; static_cast<double>(step) * plant.deriveTime <= upTo; ++step) times.push_back(static_cast<double>(step) * plant.deriveTime);
   }
@@ -245,6 +235,16 @@ Result<std::vector<double>> lightSteps(const GrowthData& data, double upTo) {
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }
+
+// ---- light -----------------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// A blade without a radius is about this share of its length wide; of the rectangle around it a blade covers two thirds.
+constexpr double kBladeWidth = 0.5, kBladeCover = 2.0 / 3;
+constexpr int kPatchesAnOrgan = 3;
+
+bool asksForLight(const PlantHistory& plant, const Body& body) { return plant.habits[static_cast<std::size_t>(body.habit)].lightResponse > 0; }
 
 double shadeOf(const Organ& organ) {
   if (organ.kind == OrganKind::Root) return 0;
@@ -264,7 +264,14 @@ std::vector<ShadePatch> patchesOf(const std::vector<Organ>& organs) {
   return patches;
 }
 
-/// Gives the bodies that grow at the light step `time` the light that they have there.
+}  // namespace
+
+bool asksForLight(const GrowthData& data) {
+  return std::any_of(data.plants.begin(), data.plants.end(), [](const PlantHistory& plant) {
+    return std::any_of(plant.bodies.begin(), plant.bodies.end(), [&](const Body& body) { return asksForLight(plant, body); });
+  });
+}
+
 void addLightStep(GrowthData& data, double time) {
   std::vector<Organ> organs;
   std::vector<std::vector<std::int32_t>> organOf;
@@ -282,24 +289,7 @@ void addLightStep(GrowthData& data, double time) {
       body.lit.push_back(1 - plant.habits[static_cast<std::size_t>(body.habit)].lightResponse * (1 - light));
     }
   }
-}
-
-}  // namespace
-
-Result<void> addLight(GrowthData& data, double upTo, const Watch& watch) {
-  bool asked = false;
-  for (const PlantHistory& plant : data.plants)
-    asked = asked || std::any_of(plant.bodies.begin(), plant.bodies.end(), [&](const Body& body) { return asksForLight(plant, body); });
-  if (!asked) return {};
-  auto times = lightSteps(data, upTo);
-  if (!times) return times.failure();
-  data.lightSteps = *std::move(times);
-  for (const double time : data.lightSteps) {
-    if (watch.cancelled()) return fail(ErrorCode::Cancelled, "growing was stopped while light was computed");
-    watch.report("computing light", upTo > 0 ? time / upTo : 1);
-    addLightStep(data, time);
-  }
-  return {};
+  data.lightSteps.push_back(time);
 }
 
 }  // namespace axil::simeco

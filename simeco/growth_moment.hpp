@@ -13,8 +13,14 @@ std::vector<std::int32_t> addOrgans(const GrowthData& data, const PlantHistory& 
 /// The time from which on all sizes stay as they are.
 [[nodiscard]] double fullSizeTime(const GrowthData& data);
 
-/// Works out how much light each organ that asks for it has, step of time after step of time up to `upTo`. Fails with LimitReached
-/// where there are too many steps, with Cancelled.
-[[nodiscard]] Result<void> addLight(GrowthData& data, double upTo, const Watch& watch);
+/// All times up to `upTo` at which a plant of the ecosystem takes a step, or would if it still took any. Fails with LimitReached
+/// where there are too many.
+[[nodiscard]] Result<std::vector<double>> stepTimes(const GrowthData& data, double upTo);
+
+/// Whether any organ grows as its light lets it.
+[[nodiscard]] bool asksForLight(const GrowthData& data);
+
+/// Gives the bodies that grow at `time` the light that they have from then on to the next light step. Times must come in order.
+void addLightStep(GrowthData& data, double time);
 
 }  // namespace axil::simeco

@@ -292,6 +292,67 @@ TEST(GrowthEnvironment, LaterStepsAndLaterChangesChangeNothingEarlier) {
   EXPECT_EQ(at(grown(grammarOf(answering()), upTo), 3.5), at(b, 3.5));
 }
 
+TEST(GrowthEnvironment, TheFirstChangeTouchesNoBitOfWhatCameBeforeIt) {
+  GrowOptions calm, changed;
+  calm.seed = changed.seed = 3;
+  changed.changes = {{4.3, {.soilPH = 6.0, .wind = glm::dvec3{-0.5, 0, 0.2}}}};
+  for (const char* attributes : {"", "SoilPH = 6.4; GravityTropism = -0.2;", "LightResponse = 0.8;"}) {
+    const Growth a = grown(grammarOf(bush(attributes)), calm), b = grown(grammarOf(bush(attributes)), changed);
+    for (double time = 0; time < 4.3; time += 0.13) EXPECT_EQ(at(a, time), at(b, time)) << attributes << " " << time;
+    EXPECT_NE(at(a, 6), at(b, 6)) << attributes;
+  }
+}
+
+TEST(GrowthEnvironment, AHostAnswersWhatThePlantHasBecome) {
+  // A gardener who turns the heating off as soon as the plant is 2 high, and writes down when he looked.
+  const Grammar grammar = grammarOf({.attributes = "TemperatureBest = 20; TemperatureWidth = 5;", .rules = "w = A(0); A(i) : i < 8 -> S(1) A(i+1) ;"});
+  std::vector<double> asked;
+  const auto heightOf = [](const Plant& plant) {
+    double height = 0;
+    for (const Organ& organ : plant.organs) height = std::max(height, organ.tip().at.y);
+    return height;
+  };
+  GrowOptions options = in({.temperature = 20});
+  options.betweenSteps = [&](const Plant& plant, const Environment& now) -> Result<Environment> {
+    asked.push_back(plant.time);
+    return heightOf(plant) >= 2 ? Environment{.temperature = 10} : now;
+  };
+  const Growth tended = grown(grammar, options);
+  EXPECT_EQ(asked, (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  // The same growth told beforehand: the first organ is born at 1, so 2 are grown out at 3.
+  GrowOptions told = in({.temperature = 20});
+  told.changes = {{3, {.temperature = 10}}};
+  const Growth planned = grown(grammar, told);
+  for (double time = 0; time < 12; time += 0.37) EXPECT_EQ(at(tended, time), at(planned, time)) << time;
+  EXPECT_NEAR(heightOf(at(tended, 20)), 2 + 6 * std::exp(-2), 1e-12);
+}
+
+TEST(GrowthEnvironment, AHostsLightActsFromTheStepAtWhichItAnswers) {
+  GrowOptions hosted = in({}), told = in({});
+  hosted.betweenSteps = [](const Plant& plant, const Environment& now) -> Result<Environment> {
+    return plant.time >= 2 ? Environment{.light = glm::dvec3{1, 0.3, 0}} : now;
+  };
+  told.changes = {{2, {.light = glm::dvec3{1, 0.3, 0}}}};
+  const Grammar grammar = grammarOf(answering());
+  const Growth a = grown(grammar, hosted), b = grown(grammar, told);
+  for (double time = 0; time < 9; time += 0.31) EXPECT_EQ(at(a, time), at(b, time)) << time;
+}
+
+TEST(GrowthEnvironment, AHostThatFailsOrSaysNonsenseEndsGrowth) {
+  const auto endOf = [](GrowOptions options) {
+    const auto growth = prepareGrowth(grammarOf({}), options);
+    return growth ? std::string{} : growth.error().message;
+  };
+  GrowOptions failing, senseless, both;
+  failing.betweenSteps = [](const Plant&, const Environment&) -> Result<Environment> { return fail(ErrorCode::NoAnswer, "the greenhouse is on fire"); };
+  senseless.betweenSteps = [](const Plant&, const Environment&) -> Result<Environment> { return Environment{.temperature = std::nan("")}; };
+  both = failing;
+  both.changes = {{1, {}}};
+  EXPECT_EQ(endOf(failing), "the greenhouse is on fire");
+  EXPECT_NE(endOf(senseless), "");
+  EXPECT_NE(endOf(both).find("give one of them"), std::string::npos);
+}
+
 TEST(GrowthEnvironment, AChangeActsFromItsTimeOn) {
   // Half of the growth at full response, half at exp(-1/2).
   const PlantText text{.attributes = "SoilPH = 7.0;"};
@@ -340,6 +401,29 @@ TEST(GrowthEnvironment, LeavesUnfoldFromTheirParentsDirectionToTheirOwn) {
   EXPECT_EQ(leaf(2).opening, 1);
   EXPECT_NEAR(angle(2), 1, 1e-12);
   EXPECT_DOUBLE_EQ(completeTime(growth), 2);
+}
+
+TEST(GrowthEnvironment, FlowersOpenAndFruitsSwell) {
+  const Growth growth = grown(parsed("EcoSystem 1.1 \"e\" { Plant \"p\" { Stem { Stage 1 { GrowRate = 1.0; } } "
+                                     "Flower { Stage 1 { GrowRate = 0.2; UnfoldTime = 4.0; FallAge = 6; } } "
+                                     "Fruit { Stage 1 { GrowRate = 0.1; BroadenRate = 2.0; BroadenTime = 8.0; } } "
+                                     "Grow { w = S(1) [rotr(1)rotu(0)W(1)] F(1); } } }"));
+  const auto organ = [&](double time, OrganKind kind) {
+    for (const Organ& o : at(growth, time).organs)
+      if (o.kind == kind) return std::optional<Organ>(o);
+    return std::optional<Organ>();
+  };
+  double opening = -1, radius = -1;
+  for (const double time : {0.5, 1.0, 2.0, 3.0, 3.9}) {
+    EXPECT_GT(organ(time, OrganKind::Flower)->opening, opening) << time;
+    EXPECT_GT(organ(time, OrganKind::Fruit)->radius, radius) << time;
+    opening = organ(time, OrganKind::Flower)->opening;
+    radius = organ(time, OrganKind::Fruit)->radius;
+  }
+  EXPECT_EQ(organ(4, OrganKind::Flower)->opening, 1);
+  EXPECT_FALSE(organ(6, OrganKind::Flower));
+  EXPECT_DOUBLE_EQ(organ(8, OrganKind::Fruit)->radius, 2 * 8 * modelRadius);
+  EXPECT_EQ(organ(8, OrganKind::Fruit)->radius, organ(80, OrganKind::Fruit)->radius);
 }
 
 TEST(GrowthEnvironment, LeavesWitherHangAndFallWithWhatStandsOnThem) {
