@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
 #include <filesystem>
 
 namespace axil::app {
@@ -39,6 +40,14 @@ Result<void> writeReport(const document::OpenProject& open, const document::Meas
   return writeFile(folder / "report.txt", skeleton3d::reportText(clicks.views, clicks.cameras, clicks.suspects, clicks.uncertainty, clicks.notes, skeleton));
 }
 
+/// What a person should look at, on stderr: clicks that are left out first.
+void say(const document::Measured& clicks) {
+  for (const auto& suspect : clicks.suspects)
+    std::fprintf(stderr, "axil: suspect click: node %d in view %s, %.1f px off, wrong with a chance of %.0f %%\n", suspect.node.value, suspect.view.c_str(), suspect.off_px,
+                 100 * suspect.chance);
+  for (const std::string& note : clicks.notes) std::fprintf(stderr, "axil: note: %s\n", note.c_str());
+}
+
 int run(const SkeletonCommand& command) {
   const auto open = document::loadProject(command.project);
   if (!open) return report(open.error());
@@ -47,9 +56,10 @@ int run(const SkeletonCommand& command) {
   if (!clicks) return report(clicks.error());
   const auto skeleton = document::skeletonOf(open->project, *clicks, options);
   if (!skeleton) return report(skeleton.error());
+  say(*clicks);
   if (!command.report.empty())
     if (const auto written = writeReport(*open, *clicks, *skeleton, command.report); !written) return report(written.error());
-  return print(document::skeletonText(*skeleton));
+  return print(document::skeletonText(*skeleton, clicks->suspects));
 }
 
 }  // namespace

@@ -50,11 +50,24 @@ std::vector<skeleton3d::ClickedNode> nodesOf(const Project& project) {
   return nodes;
 }
 
-std::map<std::string, skeleton3d::UnknownCameraHints> hintsOf(const Project& project, const std::map<std::string, double>& focals) {
+std::vector<skeleton3d::ClickedStem> stemsOf(const Project& project) {
+  std::vector<skeleton3d::ClickedStem> stems;
+  for (const ProjectStem& stem : project.stems) stems.push_back(stem.stem);
+  return stems;
+}
+
+// The ends of a known length, as exactly as its photo shows them; as clicked where it cannot be read.
+std::optional<skeleton3d::KnownLength> lengthIn(const OpenProject& open, const ProjectView& view) {
+  if (!view.scale || view.photo.empty() || view.view.camera.model != skeleton3d::CameraModel::Unknown) return view.scale;
+  const auto photo = skeleton3d::readPhoto(photoPath(open, view));
+  return photo ? skeleton3d::snapKnownLength(*photo, *view.scale).scale : *view.scale;
+}
+
+std::map<std::string, skeleton3d::UnknownCameraHints> hintsOf(const OpenProject& open, const std::map<std::string, double>& focals) {
   std::map<std::string, skeleton3d::UnknownCameraHints> hints;
-  for (const ProjectView& view : project.views) {
+  for (const ProjectView& view : open.project.views) {
     const auto focal = focals.find(view.view.name);
-    hints[view.view.name] = {view.origin_px, view.scale, focal == focals.end() ? std::nullopt : std::optional(focal->second)};
+    hints[view.view.name] = {view.origin_px, lengthIn(open, view), focal == focals.end() ? std::nullopt : std::optional(focal->second)};
   }
   return hints;
 }
@@ -102,7 +115,7 @@ Result<Measured> measured(const OpenProject& open, const ChainOptions& options) 
     return result;
   }
   options.watch.report("estimating the cameras", 0.2);
-  auto cameras = skeleton3d::estimateCameras(result.views, hintsOf(open.project, focals), result.nodes);
+  auto cameras = skeleton3d::estimateCameras(result.views, hintsOf(open, focals), result.nodes, {.stems = stemsOf(open.project)});
   if (!cameras) return cameras.failure();
   result.nodes = skeleton3d::withoutSuspects(result.nodes, cameras->suspects);
   result.views = std::move(cameras->views);
@@ -114,10 +127,8 @@ Result<Measured> measured(const OpenProject& open, const ChainOptions& options) 
 }
 
 Result<skeleton3d::Skeleton> skeletonOf(const Project& project, const Measured& clicks, const ChainOptions& options) {
-  std::vector<skeleton3d::ClickedStem> stems;
-  for (const ProjectStem& stem : project.stems) stems.push_back(stem.stem);
   options.watch.report("solving the skeleton", 0.6);
-  auto skeleton = skeleton3d::buildSkeleton(clicks.views, clicks.nodes, stems, options.solve, project.unit);
+  auto skeleton = skeleton3d::buildSkeleton(clicks.views, clicks.nodes, stemsOf(project), options.solve, project.unit);
   if (!skeleton) return skeleton;
   *skeleton = skeleton3d::withUncertainty(*std::move(skeleton), clicks.uncertainty);
   if (project.leaves.empty()) return skeleton;

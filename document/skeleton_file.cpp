@@ -37,7 +37,7 @@ Json leafJson(const skeleton3d::Leaf& leaf) {
 
 }  // namespace
 
-std::string skeletonText(const skeleton3d::Skeleton& skeleton) {
+std::string skeletonText(const skeleton3d::Skeleton& skeleton, std::span<const skeleton3d::SuspectClick> suspects) {
   Json json = {{"axil_skeleton", 1}, {"unit", skeleton.unit}, {"root", skeleton.root.value}};
   json["nodes"] = json["stems"] = json["leaves"] = Json::array();
   for (const auto& node : skeleton.nodes) json["nodes"].push_back(nodeJson(node));
@@ -45,6 +45,8 @@ std::string skeletonText(const skeleton3d::Skeleton& skeleton) {
   for (const auto& leaf : skeleton.leaves) json["leaves"].push_back(leafJson(leaf));
   for (const auto& node : skeleton.incomplete) json["incomplete"].push_back({{"id", node.id.value}, {"views", node.views}});
   for (const auto stem : skeleton.waiting) json["waiting_stems"].push_back(stem.value);
+  for (const auto& click : suspects)
+    json["suspect_clicks"].push_back({{"node", click.node.value}, {"view", click.view}, {"off_px", click.off_px}, {"chance", click.chance}});
   return jsonLines(json);
 }
 

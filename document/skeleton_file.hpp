@@ -2,13 +2,16 @@
 /// \file
 /// skeleton.json: a Skeleton as the file of docs/files.md, for other programs and for `axil skeleton` and `axil grow`.
 
+#include "skeleton3d/estimate.hpp"
 #include "skeleton3d/types.hpp"
 
+#include <span>
 #include <string>
 
 namespace axil::document {
 
-/// Numbers in their shortest exact form. A radius, a width or a shape nobody gave is left out.
-[[nodiscard]] std::string skeletonText(const skeleton3d::Skeleton& skeleton);
+/// Numbers in their shortest exact form. A radius, a width or a shape nobody gave is left out. `suspects` are the clicks that
+/// were named as wrong and left out.
+[[nodiscard]] std::string skeletonText(const skeleton3d::Skeleton& skeleton, std::span<const skeleton3d::SuspectClick> suspects = {});
 
 }  // namespace axil::document

@@ -117,8 +117,8 @@ struct Scatter {
 /// The same for known cameras.
 [[nodiscard]] Scatter robustScatterOf(std::span<const View> views, std::span<const ClickedNode> nodes);
 
-/// Clicks that do not fit, judged node by node with the bundle's cameras. See SuspectClick.
-[[nodiscard]] std::vector<SuspectClick> suspectsOf(const Bundle& bundle, double click_px);
+/// Clicks that do not fit, judged node by node in `views`, the bundle's cameras or better ones. See SuspectClick.
+[[nodiscard]] std::vector<SuspectClick> suspectsOf(const Bundle& bundle, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems);
 [[nodiscard]] std::vector<SuspectClick> suspectsIn(const ClickedNode& node, const std::vector<View>& views, double click_px);
 /// The bundle without the suspects that withoutSuspects drops.
 [[nodiscard]] Bundle withoutSuspectsIn(Bundle bundle, const std::vector<SuspectClick>& suspects);

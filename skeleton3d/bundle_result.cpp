@@ -1,6 +1,6 @@
 #include "skeleton3d/bundle.hpp"
 #include "skeleton3d/camera.hpp"
-#include "skeleton3d/solve.hpp"
+#include "skeleton3d/solve_all.hpp"
 #include "skeleton3d/statistics.hpp"
 
 #include <ceres/rotation.h>
@@ -94,12 +94,13 @@ Scatter scatterOf(const Bundle& bundle) {
 Scatter robustScatterOf(std::span<const View> views, std::span<const ClickedNode> nodes) {
   std::vector<double> variances;
   int freedom = 0;
-  for (const ClickedNode& node : nodes) {
-    const auto solved = solveNodes(views, std::span(&node, 1));
-    if (!solved) continue;
-    const int own = 2 * static_cast<int>(node.clicks.size()) - 3;
+  const auto solved = solveAll(views, nodes, {}, "plant units");
+  if (!solved) return scatterFrom(0, 0);
+  for (const auto& node : solved->nodes) {
+    if (!node) continue;
+    const int own = 2 * static_cast<int>(node->reprojection_px.size()) - 3;
     double squares = 0;
-    for (const auto& [view, off_px] : solved->front().reprojection_px) squares += off_px * off_px;
+    for (const auto& [view, off_px] : node->reprojection_px) squares += off_px * off_px;
     variances.push_back(squares / chiSquaredMedian(own));
     freedom += own;
   }

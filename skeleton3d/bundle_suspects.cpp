@@ -3,6 +3,7 @@
 #include "skeleton3d/solve.hpp"
 #include "skeleton3d/solve_all.hpp"
 #include "skeleton3d/statistics.hpp"
+#include "skeleton3d/stem_course.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -14,7 +15,7 @@ namespace axil::skeleton3d::detail {
 namespace {
 
 constexpr double kLeastClick_px = 0.3;      // no one clicks better; below it rounding would be suspected
-constexpr double kWorthNaming = 0.1;        // of being the wrong one
+constexpr double kWorthNaming = 0.05;       // of being the wrong one
 
 ClickedNode clickedAgain(const BundlePoint& point, const std::vector<View>& views) {
   ClickedNode node{point.id, {}, std::nullopt};
@@ -27,13 +28,20 @@ struct Fit {
   double squares = 0;  ///< in standard deviations of a click
 };
 
-std::optional<Fit> fitted(const ClickedNode& node, const std::vector<View>& views, double click_px) {
-  const auto solved = solveNodes(views, std::span(&node, 1), {.maxReprojection_px = std::numeric_limits<double>::max()});
-  if (!solved) return std::nullopt;
-  Fit fit{solved->front().position, 0};
-  for (const auto& [view, off_px] : solved->front().reprojection_px) fit.squares += off_px * off_px / (click_px * click_px);
-  return fit;
+std::vector<std::optional<Fit>> fittedAll(std::span<const ClickedNode> nodes, const std::vector<View>& views, double click_px) {
+  const auto solved = solveAll(views, nodes, {.maxReprojection_px = std::numeric_limits<double>::max()}, "plant units");
+  std::vector<std::optional<Fit>> fits(nodes.size());
+  if (!solved) return fits;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto& node = solved->nodes[i];
+    if (!node) continue;
+    fits[i] = Fit{node->position, 0};
+    for (const auto& [view, off_px] : node->reprojection_px) fits[i]->squares += off_px * off_px / (click_px * click_px);
+  }
+  return fits;
 }
+
+std::optional<Fit> fitted(const ClickedNode& node, const std::vector<View>& views, double click_px) { return fittedAll(std::span(&node, 1), views, click_px).front(); }
 
 int freedomOf(const ClickedNode& node) { return 2 * static_cast<int>(node.clicks.size()) - 3; }
 bool fits(const ClickedNode& node, const Fit& fit) { return fit.squares <= chiSquaredLimit(freedomOf(node)); }
@@ -42,33 +50,33 @@ double offFrom(const Fit& fit, const PhotoPoint& click, const std::string& view,
   return glm::length(project(findView(views, view)->camera, fit.at).px - click.px);
 }
 
-/// A click together with how well the others agree without it.
+/// A click together with how well, without it, the others agree and the node continues its stems.
 struct Accused {
   std::string view;
   double off_px = 0;
-  double squares = 0;
+  double likelihood = 0;  ///< its logarithm
 };
 
-std::vector<Accused> accusedOf(const ClickedNode& node, const std::vector<View>& views, double click_px) {
+std::vector<Accused> accusedOf(const ClickedNode& node, const std::vector<View>& views, double click_px, const StemCourse& course) {
   std::vector<Accused> accused;
   if (node.clicks.size() < 3) return accused;
   for (const auto& [view, click] : node.clicks) {
     ClickedNode others = node;
     others.clicks.erase(view);
     const auto fit = fitted(others, views, click_px);
-    if (fit && fits(others, *fit)) accused.push_back({view, offFrom(*fit, click, view, views), fit->squares});
+    if (fit && fits(others, *fit)) accused.push_back({view, offFrom(*fit, click, view, views), likelihoodAt(course, node.id, fit->at.at) - fit->squares / 2});
   }
   return accused;
 }
 
-/// Of clicks that could each be the wrong one, how likely each is: by how well the others agree without it.
+/// Of clicks that could each be the wrong one, how likely each is: by how well everything agrees without it.
 std::vector<SuspectClick> weighed(NodeId node, const std::vector<Accused>& accused) {
-  double least = std::numeric_limits<double>::max(), sum = 0;
-  for (const Accused& one : accused) least = std::min(least, one.squares);
-  for (const Accused& one : accused) sum += std::exp((least - one.squares) / 2);
+  double most = std::numeric_limits<double>::lowest(), sum = 0;
+  for (const Accused& one : accused) most = std::max(most, one.likelihood);
+  for (const Accused& one : accused) sum += std::exp(one.likelihood - most);
   std::vector<SuspectClick> suspects;
   for (const Accused& one : accused)
-    if (const double chance = std::exp((least - one.squares) / 2) / sum; chance >= kWorthNaming) suspects.push_back({node, one.view, one.off_px, chance});
+    if (const double chance = std::exp(one.likelihood - most) / sum; chance >= kWorthNaming) suspects.push_back({node, one.view, one.off_px, chance});
   return suspects;
 }
 
@@ -84,21 +92,35 @@ std::vector<SuspectClick> allOf(const ClickedNode& node, const Fit& fit, const s
   return suspects;
 }
 
+std::vector<SuspectClick> suspectsWhere(const ClickedNode& node, const std::optional<Fit>& fit, const std::vector<View>& views, double click_px, const StemCourse& course) {
+  if (!fit || fits(node, *fit)) return {};
+  const auto accused = accusedOf(node, views, click_px, course);
+  return accused.empty() ? allOf(node, *fit, views) : weighed(node.id, accused);
+}
+
+std::map<NodeId, glm::dvec3> placesOf(const std::vector<ClickedNode>& nodes, const std::vector<std::optional<Fit>>& fits) {
+  std::map<NodeId, glm::dvec3> places;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (fits[i]) places.emplace(nodes[i].id, fits[i]->at.at);
+  return places;
+}
+
 }  // namespace
 
 std::vector<SuspectClick> suspectsIn(const ClickedNode& node, const std::vector<View>& views, double click_px) {
   const double scatter_px = std::max(click_px, kLeastClick_px);
-  const auto fit = fitted(node, views, scatter_px);
-  if (!fit || fits(node, *fit)) return {};
-  const auto accused = accusedOf(node, views, scatter_px);
-  return accused.empty() ? allOf(node, *fit, views) : weighed(node.id, accused);
+  return suspectsWhere(node, fitted(node, views, scatter_px), views, scatter_px, {});
 }
 
-std::vector<SuspectClick> suspectsOf(const Bundle& bundle, double click_px) {
-  const std::vector<View> views = viewsOf(bundle);
+std::vector<SuspectClick> suspectsOf(const Bundle& bundle, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems) {
+  const double scatter_px = std::max(click_px, kLeastClick_px);
+  std::vector<ClickedNode> nodes;
+  for (std::size_t p = 0; p < bundle.nodes; ++p) nodes.push_back(clickedAgain(bundle.points[p], views));
+  const auto fits = fittedAll(nodes, views, scatter_px);
+  const StemCourse course = stemCourseOf(stems, placesOf(nodes, fits));
   std::vector<SuspectClick> suspects;
-  for (std::size_t p = 0; p < bundle.nodes; ++p) {
-    const auto own = suspectsIn(clickedAgain(bundle.points[p], views), views, click_px);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto own = suspectsWhere(nodes[i], fits[i], views, scatter_px, course);
     suspects.insert(suspects.end(), own.begin(), own.end());
   }
   return suspects;

@@ -61,6 +61,30 @@ Result<Bundle> fitted(std::span<const View> views, const std::map<std::string, U
   return fail(ErrorCode::NoAnswer, "the views do not fit together: " + better);
 }
 
+/// The wrong clicks, and the bundle without them.
+struct Sifted {
+  std::vector<SuspectClick> suspects;
+  Bundle kept;
+  double click_px = 1;
+};
+
+Sifted siftedWith(const Bundle& all, const Bundle& fitted, const EstimateOptions& options) {
+  const double click_px = clickOr(options, detail::robustScatterOf(fitted).click_px);
+  Sifted sifted{detail::suspectsOf(all, detail::viewsOf(fitted), click_px, options.stems), all, click_px};
+  sifted.kept.cameras = fitted.cameras;
+  sifted.kept = detail::withoutSuspectsIn(std::move(sifted.kept), sifted.suspects);
+  return sifted;
+}
+
+/// Wrong clicks have pulled a little at the cameras that first judge them: once more, in the cameras that the others give.
+Result<Sifted> siftedOf(const Bundle& bundle, const EstimateOptions& options) {
+  Sifted first = siftedWith(bundle, bundle, options);
+  if (first.suspects.empty()) return first;
+  const auto better = detail::adjustBundle(first.kept, {first.click_px, kLoss, options});
+  if (!better) return better.failure();
+  return siftedWith(bundle, *better, options);
+}
+
 CameraReport reportOf(const Bundle& bundle, std::size_t index, const std::vector<detail::Miss>& all, const detail::BundleSpread& spread) {
   const detail::BundleCamera& camera = bundle.cameras[index];
   const Camera found = detail::cameraOf(camera);
@@ -140,9 +164,10 @@ Result<EstimatedCameras> estimateCameras(std::span<const View> views, const std:
 
   const auto bundle = fitted(views, hints, nodes, options);
   if (!bundle) return bundle.failure();
-  const double click_px = clickOr(options, detail::robustScatterOf(*bundle).click_px);
-  std::vector<SuspectClick> suspects = detail::suspectsOf(*bundle, click_px);
-  const auto withRods = detail::withKnownLengths(detail::withoutSuspectsIn(*bundle, suspects), click_px);
+  auto sifted = siftedOf(*bundle, options);
+  if (!sifted) return sifted.failure();
+  auto& [suspects, kept, click_px] = *sifted;
+  const auto withRods = detail::withKnownLengths(std::move(kept), click_px);
   if (!withRods) return withRods.failure();
   const auto done = detail::adjustBundle(*withRods, {click_px, kLoss, options});
   if (!done) return done.failure();

@@ -38,6 +38,9 @@ struct EstimateOptions {
   /// Where nothing says the focal length: that of a phone, 26 mm on film, in pixels 0.6 of the photo's diagonal; its inverse
   /// may be anything from 0 (seen from very far) to about three times that.
   double defaultFocalShareOfDiagonal = 0.6;
+  /// Stems, where they are clicked already: of two clicks that could equally be the wrong one of a node, the one that makes
+  /// the node leap away from its neighbours. They move no camera and no node.
+  std::vector<ClickedStem> stems = {};
 };
 
 /// How one camera was found.

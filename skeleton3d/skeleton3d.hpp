@@ -18,6 +18,7 @@
 #include "skeleton3d/camera.hpp"    // plant points to pixels and back
 #include "skeleton3d/photo.hpp"     // photo files, upright
 #include "skeleton3d/uncertainty.hpp"  // covariance of nodes, lengths, angles
+#include "skeleton3d/known_length.hpp"  // the ends of a rod, as its photo shows them
 #include "skeleton3d/estimate.hpp"  // cameras nobody calibrated
 #include "skeleton3d/calibrate.hpp"  // a lens from photos of a chessboard
 #include "skeleton3d/guides.hpp"    // where a click of one view can be in another

@@ -75,8 +75,11 @@ std::optional<glm::dmat3> covariance(const Uncertainty& uncertainty, NodeId a, N
   if (one == nullptr || other == nullptr) return std::nullopt;
   glm::dmat3 sum = one == other ? one->own : glm::dmat3(0.0);
   const std::size_t columns = one->shared.size();
-  for (std::size_t r = 0; r < columns; ++r)
-    for (std::size_t c = 0; c < columns; ++c) sum += uncertainty.middle[r * columns + c] * glm::outerProduct(one->shared[r], other->shared[c]);
+  for (std::size_t r = 0; r < columns; ++r) {
+    glm::dvec3 row{0, 0, 0};  // of M U^T
+    for (std::size_t c = 0; c < columns; ++c) row += uncertainty.middle[r * columns + c] * other->shared[c];
+    sum += glm::outerProduct(one->shared[r], row);
+  }
   return sum;
 }
 

@@ -1,4 +1,5 @@
 #include "base/rng.hpp"
+#include "skeleton3d/bundle.hpp"
 #include "skeleton3d/skeleton3d.hpp"
 
 #include <benchmark/benchmark.h>
@@ -56,12 +57,30 @@ void buildSkeletonBenchmark(benchmark::State& state) {
 }
 BENCHMARK(buildSkeletonBenchmark)->Name("skeleton3d/build_skeleton")->Arg(2000)->Unit(benchmark::kMillisecond);
 
-void estimateCamerasBenchmark(benchmark::State& state) {
-  Clicks clicks = clicksOf(static_cast<int>(state.range(0)));
+Clicks unknownOf(Clicks clicks) {
   for (View& view : clicks.views) {
     view.camera.model = CameraModel::Unknown;
     view.camera.focal_px = glm::dvec2{2190, 2190};
   }
+  return clicks;
+}
+
+/// One bundle adjustment, from the linear guess to where it stands still.
+void adjustBundleBenchmark(benchmark::State& state) {
+  const Clicks clicks = unknownOf(clicksOf(static_cast<int>(state.range(0))));
+  const auto gathered = detail::gatherBundle(clicks.views, clicks.hints, clicks.nodes, {});
+  const auto guess = gathered ? detail::guessBundle(*gathered) : gathered;
+  if (!guess) {
+    state.SkipWithError(guess.error().message.c_str());
+    return;
+  }
+  for (auto _ : state) benchmark::DoNotOptimize(detail::adjustBundle(*guess, {.click_px = 1, .loss = 4}).has_value());
+}
+BENCHMARK(adjustBundleBenchmark)->Name("skeleton3d/adjust_bundle")->Arg(500)->Unit(benchmark::kMillisecond);
+
+/// The whole: guess, scatter of the clicks, wrong clicks, known lengths, covariance.
+void estimateCamerasBenchmark(benchmark::State& state) {
+  const Clicks clicks = unknownOf(clicksOf(static_cast<int>(state.range(0))));
   if (const auto cameras = estimateCameras(clicks.views, clicks.hints, clicks.nodes); !cameras) state.SkipWithError(cameras.error().message.c_str());
   for (auto _ : state) benchmark::DoNotOptimize(estimateCameras(clicks.views, clicks.hints, clicks.nodes).has_value());
 }

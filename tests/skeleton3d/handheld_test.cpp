@@ -46,8 +46,9 @@ struct Judged {
 
 /// What is measured of a plant: cameras, then nodes, without the clicks that are named as wrong; nodes left with one click
 /// are no part of the shape.
-Judged measured(const std::vector<View>& views, const std::map<std::string, UnknownCameraHints>& hints, const std::vector<ClickedNode>& nodes, const std::vector<PlantPoint>& truth) {
-  const auto cameras = estimateCameras(views, hints, nodes);
+Judged measured(const std::vector<View>& views, const std::map<std::string, UnknownCameraHints>& hints, const std::vector<ClickedNode>& nodes, const std::vector<ClickedStem>& stems,
+                const std::vector<PlantPoint>& truth) {
+  const auto cameras = estimateCameras(views, hints, nodes, {.stems = stems});
   EXPECT_TRUE(cameras) << cameras.error().message;
   if (!cameras) return {};
   Judged judged;
@@ -93,7 +94,7 @@ Tally simulated(int plants, const test::HandheldOptions& options) {
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + static_cast<std::uint64_t>(plants); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto plant = test::handheldPlant(seed, options);
-    tally.add(measured(plant.views, plant.hints, plant.nodes, plant.places), Named(plant.wrong.begin(), plant.wrong.end()), plant.height);
+    tally.add(measured(plant.views, plant.hints, plant.nodes, plant.clickedStems(), plant.places), Named(plant.wrong.begin(), plant.wrong.end()), plant.height);
   }
   return tally;
 }
@@ -137,7 +138,7 @@ TEST(Handheld, RenderedPlantsReachTheirFigures) {
         for (std::size_t i = 0; i < plant.nodes.size(); ++i)
           for (const auto& [view, click] : plant.nodes[i].clicks)
             if (glm::length(click.px - right.nodes[i].clicks.at(view).px) > 15) wrong.emplace(plant.nodes[i].id.value, view);
-        const Judged judged = measured(plant.views, plant.hints, plant.nodes, plant.truth);
+        const Judged judged = measured(plant.views, plant.hints, plant.nodes, plant.stems, plant.truth);
         tally.add(judged, wrong, plant.height_m);
       }
       tally.print((std::string("rendered plants, ") + (noise_px < 1 ? "0.5" : "3") + " px" + (wrongShare > 0 ? ", 5 % wrong" : "")).c_str());

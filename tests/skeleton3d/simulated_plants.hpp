@@ -35,6 +35,15 @@ struct HandheldPlant {
   std::vector<PlantPoint> places;       ///< of nodes[i]
   std::vector<std::vector<int>> stems;  ///< chains of node numbers
   std::vector<std::pair<int, std::string>> wrong;
+
+  [[nodiscard]] std::vector<skeleton3d::ClickedStem> clickedStems() const {
+    std::vector<skeleton3d::ClickedStem> clicked;
+    for (const auto& stem : stems) {
+      clicked.push_back({skeleton3d::StemId(static_cast<int>(clicked.size())), {}});
+      for (const int node : stem) clicked.back().nodes.push_back(skeleton3d::NodeId(node));
+    }
+    return clicked;
+  }
 };
 
 /// A stem that leans and bends, and branches off it at random heights.

@@ -1,0 +1,162 @@
+#include "skeleton3d/known_length.hpp"
+
+#include "skeleton3d/statistics.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace axil::skeleton3d {
+namespace {
+
+constexpr double kShortest_px = 40;
+constexpr double kStep_px = 0.25;
+constexpr double kFaint = 6;  // grey levels: below it noise
+
+/// Bilinear; beyond the photo its border goes on.
+glm::dvec3 colourAt(const Photo& photo, glm::dvec2 px) {
+  const double x = std::clamp(px.x - 0.5, 0.0, photo.width - 1.0), y = std::clamp(px.y - 0.5, 0.0, photo.height - 1.0);
+  const int left = std::min(static_cast<int>(x), std::max(photo.width - 2, 0)), top = std::min(static_cast<int>(y), std::max(photo.height - 2, 0));
+  const auto pixel = [&](int column, int row) {
+    const std::size_t at = 3 * (static_cast<std::size_t>(std::min(row, photo.height - 1)) * static_cast<std::size_t>(photo.width) + static_cast<std::size_t>(std::min(column, photo.width - 1)));
+    return glm::dvec3{photo.rgb[at], photo.rgb[at + 1], photo.rgb[at + 2]};
+  };
+  const double fx = x - left, fy = y - top;
+  return (1 - fy) * ((1 - fx) * pixel(left, top) + fx * pixel(left + 1, top)) + fy * ((1 - fx) * pixel(left, top + 1) + fx * pixel(left + 1, top + 1));
+}
+
+/// Where a rod ends: `out` points away from it, `side` across.
+struct End {
+  glm::dvec2 click;
+  glm::dvec2 out;
+  glm::dvec2 side;
+  double reach = 0;   ///< px about the click in which the end is looked for
+  double length = 0;  ///< px of the whole
+
+  [[nodiscard]] glm::dvec2 at(double along, double across) const { return click + along * out + across * side; }
+};
+
+struct Sampled {
+  double first = 0;
+  std::vector<double> values;  ///< kStep_px apart
+
+  [[nodiscard]] double place(std::size_t i) const { return first + kStep_px * static_cast<double>(i); }
+};
+
+Sampled sampled(double reach, const std::function<double(double)>& value) {
+  Sampled samples{-reach, {}};
+  const auto count = static_cast<std::size_t>(2 * reach / kStep_px) + 1;
+  for (std::size_t i = 0; i < count; ++i) samples.values.push_back(value(samples.place(i)));
+  return samples;
+}
+
+std::vector<std::size_t> peaksOf(const Sampled& samples) {
+  std::vector<std::size_t> peaks;
+  for (std::size_t i = 1; i + 1 < samples.values.size(); ++i)
+    if (samples.values[i] > samples.values[i - 1] && samples.values[i] >= samples.values[i + 1]) peaks.push_back(i);
+  return peaks;
+}
+
+/// The rod's middle line and half its width near an end, across.
+struct Across {
+  double middle = 0;
+  double half = 1;
+};
+
+/// How strongly the colour changes across the rod, as a mean over its last part inside the end.
+Sampled edgesAcross(const Photo& photo, const End& end) {
+  const double inner = end.reach + 1, depth = std::max(12.0, 0.2 * end.length);
+  return sampled(1.6 * end.reach, [&](double across) {
+    double sum = 0, count = 0;
+    for (double along = inner; along <= inner + depth; along += 1, ++count) sum += glm::length(colourAt(photo, end.at(-along, across + 0.75)) - colourAt(photo, end.at(-along, across - 0.75)));
+    return sum / std::max(count, 1.0);
+  });
+}
+
+/// The pair of edges whose weaker one is strongest, about a middle within reach of the click.
+std::optional<Across> acrossOf(const Photo& photo, const End& end) {
+  const Sampled edges = edgesAcross(photo, end);
+  const auto peaks = peaksOf(edges);
+  constexpr double kThinnest_px = 2;
+  std::optional<Across> best;
+  double strength = std::max(kFaint, 1.5 * detail::medianOf(edges.values));
+  for (std::size_t i = 0; i < peaks.size(); ++i)
+    for (std::size_t j = i + 1; j < peaks.size(); ++j) {
+      const Across pair{(edges.place(peaks[i]) + edges.place(peaks[j])) / 2, (edges.place(peaks[j]) - edges.place(peaks[i])) / 2};
+      const double weaker = std::min(edges.values[peaks[i]], edges.values[peaks[j]]);
+      if (2 * pair.half < kThinnest_px || std::abs(pair.middle) > end.reach || weaker <= strength) continue;
+      strength = weaker;
+      best = pair;
+    }
+  return best;
+}
+
+/// How the mean colour of a strip changes at `along`.
+double changeAt(const Photo& photo, const End& end, double along, double middle, double half) {
+  glm::dvec3 change{0, 0, 0};
+  constexpr int kLines = 5;
+  for (int i = 0; i < kLines; ++i) {
+    const double across = middle + half * (2.0 * i / (kLines - 1) - 1);
+    change += (colourAt(photo, end.at(along + 0.75, across)) - colourAt(photo, end.at(along - 0.75, across))) / static_cast<double>(kLines);
+  }
+  return glm::length(change);
+}
+
+/// Between samples, by the parabola through a peak and its neighbours.
+double finePlace(const Sampled& samples, std::size_t peak) {
+  const double before = samples.values[peak - 1], here = samples.values[peak], after = samples.values[peak + 1];
+  const double bend = before - 2 * here + after;
+  return samples.place(peak) + (bend < 0 ? kStep_px * 0.5 * (before - after) / bend : 0.0);
+}
+
+std::optional<double> alongOf(const Photo& photo, const End& end, const Across& rod) {
+  const double beside = rod.half + 2.5, strip = 0.6 * rod.half;
+  const Sampled ends = sampled(end.reach, [&](double along) {
+    const double sides = std::max(changeAt(photo, end, along, rod.middle - beside, 1), changeAt(photo, end, along, rod.middle + beside, 1));
+    const double share = along / end.reach;
+    return std::max(changeAt(photo, end, along, rod.middle, strip) - 0.7 * sides, 0.0) * (1 - 0.4 * share * share);
+  });
+  auto peaks = peaksOf(ends);
+  if (peaks.empty()) return std::nullopt;
+  std::stable_sort(peaks.begin(), peaks.end(), [&](std::size_t a, std::size_t b) { return ends.values[a] > ends.values[b]; });
+  constexpr double kClearly = 1.6, kSamePlace_px = 2;
+  const auto rival = std::find_if(peaks.begin(), peaks.end(), [&](std::size_t p) { return std::abs(ends.place(p) - ends.place(peaks.front())) > kSamePlace_px; });
+  const double best = ends.values[peaks.front()];
+  if (best < kFaint || (rival != peaks.end() && best < kClearly * ends.values[*rival])) return std::nullopt;
+  return finePlace(ends, peaks.front());
+}
+
+std::optional<PhotoPoint> endNear(const Photo& photo, glm::dvec2 click, glm::dvec2 other) {
+  End end;
+  end.click = click;
+  end.length = glm::length(click - other);
+  end.out = (click - other) / end.length;
+  end.side = {-end.out.y, end.out.x};
+  end.reach = std::clamp(0.06 * end.length, 4.0, 12.0);
+  const auto across = acrossOf(photo, end);
+  const auto along = across ? alongOf(photo, end, *across) : std::nullopt;
+  if (!along) return std::nullopt;
+  return PhotoPoint{end.at(*along, across->middle)};
+}
+
+bool within(const Photo& photo, glm::dvec2 px) { return px.x >= 0 && px.y >= 0 && px.x <= photo.width && px.y <= photo.height; }
+
+}  // namespace
+
+SnappedLength snapKnownLength(const Photo& photo, const KnownLength& clicked) {
+  SnappedLength snapped{clicked};
+  if (photo.width < 2 || photo.height < 2 || !within(photo, clicked.from.px) || !within(photo, clicked.to.px)) return snapped;
+  if (glm::length(clicked.to.px - clicked.from.px) < kShortest_px) return snapped;
+  const auto from = endNear(photo, clicked.from.px, clicked.to.px), to = endNear(photo, clicked.to.px, clicked.from.px);
+  snapped.fromMoved = from.has_value();
+  snapped.toMoved = to.has_value();
+  if (from) snapped.scale.from = *from;
+  if (to) snapped.scale.to = *to;
+  return snapped;
+}
+
+}  // namespace axil::skeleton3d
