@@ -22,6 +22,9 @@
 #include "skeleton3d/estimate.hpp"  // cameras nobody calibrated
 #include "skeleton3d/calibrate.hpp"  // a lens from photos of a chessboard
 #include "skeleton3d/guides.hpp"    // where a click of one view can be in another
+#include "skeleton3d/snap.hpp"      // a click onto its stem's centre line
+#include "skeleton3d/snap_place.hpp"  // snapped clicks to nodes and radii
+#include "skeleton3d/width.hpp"     // widths to radii, tapers
 #include "skeleton3d/solve.hpp"     // clicks to nodes
 #include "skeleton3d/tree.hpp"      // nodes and stems to one checked tree
 #include "skeleton3d/report.hpp"    // what a person wants to see of it

@@ -1,0 +1,246 @@
+#include "skeleton3d/snap_place.hpp"
+
+#include "skeleton3d/camera.hpp"
+#include "skeleton3d/solve_all.hpp"
+#include "skeleton3d/width.hpp"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace axil::skeleton3d {
+namespace {
+
+/// One click with what was read about it.
+struct Sight {
+  const View* view = nullptr;
+  glm::dvec2 click{0, 0};
+  const RidgeReading* ridge = nullptr;
+};
+
+/// A residual in sigmas: (project(X) - at) . row.
+struct Constraint {
+  const View* view = nullptr;
+  glm::dvec2 at{0, 0};
+  glm::dvec2 row{0, 0};  ///< a direction over its sigma, 1/px
+};
+
+glm::dvec2 directionOf(Angle along) { return {std::cos(along.radians()), std::sin(along.radians())}; }
+
+/// The constraints of one click: its own in both directions, and across its stem the ridge's where it is believed.
+void addConstraints(const Sight& sight, bool believed, double click_px, std::vector<Constraint>& constraints) {
+  constraints.push_back({sight.view, sight.click, {1 / click_px, 0}});
+  constraints.push_back({sight.view, sight.click, {0, 1 / click_px}});
+  if (!believed) return;
+  const glm::dvec2 along = directionOf(sight.ridge->along);
+  constraints.push_back({sight.view, sight.ridge->at.px, glm::dvec2{-along.y, along.x} / sight.ridge->sigmaAcross_px});
+}
+
+/// Pixels a unit of space, two rows; by differences, a thousandth of a pixel wide.
+std::array<glm::dvec3, 2> slopesOf(const Camera& camera, PlantPoint point) {
+  const Ray ray = rayThrough(camera, project(camera, point));
+  const double depth = camera.model == CameraModel::Orthographic ? 1 / camera.scale_px_per_unit : glm::length(point.at - ray.origin.at) / camera.focal_px->x;
+  const double h = 0.01 * depth;
+  std::array<glm::dvec3, 2> rows{glm::dvec3(0.0), glm::dvec3(0.0)};
+  for (int i = 0; i < 3; ++i) {
+    glm::dvec3 move(0.0);
+    move[i] = h;
+    const glm::dvec2 d = (project(camera, {point.at + move}).px - project(camera, {point.at - move}).px) / (2 * h);
+    rows[0][i] = d.x;
+    rows[1][i] = d.y;
+  }
+  return rows;
+}
+
+struct Placed {
+  PlantPoint at;
+  glm::dmat3 normal{0.0};
+  double squares = 0;
+};
+
+double squaresAt(const std::vector<Constraint>& constraints, PlantPoint at) {
+  double sum = 0;
+  for (const Constraint& c : constraints) sum += std::pow(glm::dot(project(c.view->camera, at).px - c.at, c.row), 2);
+  return sum;
+}
+
+/// Least squares by Gauss and Newton; starts so near that it needs few steps.
+Placed placed(const std::vector<Constraint>& constraints, PlantPoint start) {
+  Placed result{start, {}, squaresAt(constraints, start)};
+  for (int round = 0; round < 6; ++round) {
+    glm::dmat3 normal(0.0);
+    glm::dvec3 right(0.0);
+    for (const Constraint& c : constraints) {
+      const auto slopes = slopesOf(c.view->camera, result.at);
+      const glm::dvec3 row = c.row.x * slopes[0] + c.row.y * slopes[1];
+      normal += glm::outerProduct(row, row);
+      right -= row * glm::dot(project(c.view->camera, result.at).px - c.at, c.row);
+    }
+    result.normal = normal;
+    const PlantPoint next{result.at.at + glm::inverse(normal) * right};
+    const bool visible = std::all_of(constraints.begin(), constraints.end(), [&](const Constraint& c) { return isInFront(c.view->camera, next); });
+    if (!visible || !std::isfinite(next.at.x + next.at.y + next.at.z)) break;
+    const double squares = squaresAt(constraints, next);
+    if (!(squares < result.squares)) break;
+    const bool done = result.squares - squares < 1e-9;
+    result.at = next;
+    result.squares = squares;
+    if (done) break;
+  }
+  return result;
+}
+
+/// Minus twice the log of how much less likely it is that the ridge is some other line within the clicks' scatter.
+double costOfDisbelief(const RidgeReading& ridge) {
+  const double p = std::clamp(ridge.confidence, 0.05, 0.97);
+  return 2 * std::log(20 / (2.5 * ridge.sigmaAcross_px)) + 2 * std::log(p / (1 - p));
+}
+
+struct Believed {
+  Placed placed;
+  unsigned which = 0;
+  double cost = 0;
+};
+
+/// Every choice of ridges to believe; the likeliest wins. At most kMaxViews are tried in all ways.
+Believed mostLikely(const std::vector<Sight>& sights, PlantPoint start, double click_px) {
+  std::vector<std::size_t> withRidge;
+  for (std::size_t i = 0; i < sights.size(); ++i)
+    if (sights[i].ridge != nullptr && withRidge.size() < 6) withRidge.push_back(i);
+  Believed best;
+  const unsigned all = (1U << withRidge.size()) - 1;
+  for (unsigned choice = 0; choice <= all; ++choice) {
+    std::vector<Constraint> constraints;
+    std::vector<bool> believed(sights.size(), false);
+    double cost = 0;
+    for (std::size_t k = 0; k < withRidge.size(); ++k) {
+      believed[withRidge[k]] = (choice >> k & 1U) != 0;
+      if (!believed[withRidge[k]]) cost += costOfDisbelief(*sights[withRidge[k]].ridge);
+    }
+    for (std::size_t i = 0; i < sights.size(); ++i) addConstraints(sights[i], believed[i], click_px, constraints);
+    const Placed here = placed(constraints, start);
+    cost += here.squares;
+    if (choice > 0 && !(cost < best.cost)) continue;
+    best = {here, 0, cost};
+    for (std::size_t i = 0; i < sights.size(); ++i)
+      if (believed[i]) best.which |= 1U << i;
+  }
+  return best;
+}
+
+void addRadius(SnappedNode& node, const std::vector<Sight>& sights, unsigned which) {
+  std::vector<MeasuredRadius> readings;
+  for (std::size_t i = 0; i < sights.size(); ++i)
+    if ((which >> i & 1U) != 0 && sights[i].ridge->confidence >= 0.2) readings.push_back(radiusFrom(*sights[i].view, *sights[i].ridge, node.at));
+  if (const auto radius = combinedRadius(readings)) node.radius = radius->radius, node.sigmaRadius = radius->sigma;
+}
+
+std::vector<Sight> sightsOf(std::span<const View> views, const ClickedNode& node, const RidgeReadings& readings) {
+  std::vector<Sight> sights;
+  for (const auto& [name, click] : node.clicks) {
+    Sight sight{detail::findView(views, name), click.px, nullptr};
+    if (const auto view = readings.find(name); view != readings.end())
+      if (const auto found = view->second.find(node.id); found != view->second.end()) sight.ridge = &found->second;
+    sights.push_back(sight);
+  }
+  return sights;
+}
+
+/// A radius for every node that has readings, from all readings of its stem as a taper.
+std::map<NodeId, double> taperedRadiiOf(std::span<const View> views, std::span<const SnappedNode> placed, std::span<const ClickedStem> stems, const RidgeReadings& readings) {
+  std::map<NodeId, const SnappedNode*> places;
+  for (const SnappedNode& node : placed) places[node.id] = &node;
+  std::map<NodeId, double> radii;
+  for (std::size_t s = 0; s < stems.size(); ++s) {
+    std::vector<MeasuredRadius> along;
+    std::vector<NodeId> whose;
+    for (const NodeId id : stems[s].nodes) {
+      if (id == stems[s].nodes.front() && s > 0) continue;  // its parent's
+      for (const View& view : views) {
+        const auto inView = readings.find(view.name);
+        if (inView == readings.end() || !inView->second.contains(id) || !places.contains(id)) continue;
+        const SnappedNode& node = *places.at(id);
+        const RidgeReading& ridge = inView->second.at(id);
+        if (std::find(node.snappedIn.begin(), node.snappedIn.end(), view.name) == node.snappedIn.end() || ridge.confidence < 0.2) continue;
+        MeasuredRadius radius = radiusFrom(view, ridge, node.at);
+        radius.sigma = radius.radius * (0.05 + 0.05 / (ridge.confidence * ridge.confidence));
+        along.push_back(radius);
+        whose.push_back(id);
+      }
+    }
+    const std::vector<double> tapered = taperedRadii(along);
+    for (std::size_t i = 0; i < tapered.size(); ++i) radii[whose[i]] = tapered[i];
+  }
+  return radii;
+}
+
+/// Where each node and how wide its stem is to be seen, by view.
+std::map<std::string, std::map<NodeId, ExpectedRidge>> expectedRidges(std::span<const View> views, std::span<const SnappedNode> placed, const std::map<NodeId, double>& radii) {
+  std::map<std::string, std::map<NodeId, ExpectedRidge>> expected;
+  for (const View& view : views)
+    for (const SnappedNode& node : placed) {
+      const auto slopes = slopesOf(view.camera, node.at);
+      const auto radius = radii.find(node.id);
+      const double pixels = std::max(glm::length(slopes[0]), glm::length(slopes[1]));
+      expected[view.name][node.id] = {project(view.camera, node.at).px, radius == radii.end() ? 0 : 2 * radius->second * pixels};
+    }
+  return expected;
+}
+
+}  // namespace
+
+Result<std::vector<SnappedNode>> placeSnapped(std::span<const View> views, std::span<const ClickedNode> nodes, const RidgeReadings& readings, double click_px) {
+  const auto solved = detail::solveAll(views, nodes, {.click_px = click_px}, "plant units");
+  if (!solved) return solved.failure();
+  std::vector<SnappedNode> result;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!solved->nodes[i]) continue;
+    const std::vector<Sight> sights = sightsOf(views, nodes[i], readings);
+    const Believed best = mostLikely(sights, solved->nodes[i]->position, click_px);
+    SnappedNode node{nodes[i].id, best.placed.at, glm::inverse(best.placed.normal), {}};
+    for (std::size_t k = 0; k < sights.size(); ++k)
+      if ((best.which >> k & 1U) != 0) node.snappedIn.push_back(sights[k].view->name);
+    addRadius(node, sights, best.which);
+    result.push_back(std::move(node));
+  }
+  return result;
+}
+
+Result<Snapping> snapNodes(std::span<const View> views, const Photos& photos, std::span<const ClickedNode> nodes, std::span<const ClickedStem> stems,
+                           const SnapOptions& options) {
+  Snapping snapping;
+  const auto read = [&](const std::map<std::string, std::map<NodeId, ExpectedRidge>>& expected) {
+    RidgeReadings readings;
+    for (const auto& [view, photo] : photos) {
+      const auto known = expected.find(view);
+      readings[view] = readRidges(photo, view, nodes, stems, options, known == expected.end() ? std::map<NodeId, ExpectedRidge>{} : known->second);
+    }
+    return readings;
+  };
+  snapping.readings = read({});
+  auto placed = placeSnapped(views, nodes, snapping.readings, options.click_px);
+  if (!placed) return placed.failure();
+  snapping.readings = read(expectedRidges(views, *placed, taperedRadiiOf(views, *placed, stems, snapping.readings)));
+  placed = placeSnapped(views, nodes, snapping.readings, options.click_px);
+  if (!placed) return placed.failure();
+  snapping.nodes = *std::move(placed);
+  return snapping;
+}
+
+Skeleton withSnapped(Skeleton skeleton, std::span<const View> views, std::span<const ClickedNode> clicks, std::span<const SnappedNode> snapped) {
+  for (Node& node : skeleton.nodes) {
+    const auto place = std::find_if(snapped.begin(), snapped.end(), [&](const SnappedNode& s) { return s.id == node.id; });
+    const auto click = std::find_if(clicks.begin(), clicks.end(), [&](const ClickedNode& c) { return c.id == node.id; });
+    if (place == snapped.end() || click == clicks.end()) continue;
+    node.position = place->at;
+    node.sigma = {std::sqrt(place->covariance[0][0]), std::sqrt(place->covariance[1][1]), std::sqrt(place->covariance[2][2])};
+    if (!node.radius) node.radius = place->radius;
+    for (auto& [name, off] : node.reprojection_px)
+      if (const View* view = detail::findView(views, name)) off = glm::length(project(view->camera, place->at).px - click->clicks.at(name).px);
+  }
+  return skeleton;
+}
+
+}  // namespace axil::skeleton3d
