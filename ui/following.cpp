@@ -96,7 +96,10 @@ std::shared_ptr<const GrownGrammar> grownFrom(std::string text, std::uint64_t se
   }
   for (const Diagnostic& d : simeco::check(parsed.grammar)) grown->diagnostics.push_back(d);
   grown->segments = segmentsOfLines(grown->text, parsed.grammar);
-  const auto growth = simeco::prepareGrowth(parsed.grammar, {.seed = seed, .environment = environment});
+  simeco::GrowOptions options;
+  options.seed = seed;
+  options.environment = environment;
+  const auto growth = simeco::prepareGrowth(parsed.grammar, options);
   if (!growth) {
     grown->trouble = growth.error();
     return grown;

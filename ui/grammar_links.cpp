@@ -46,7 +46,10 @@ std::vector<int> segmentsOfLines(std::string_view text, const simeco::Grammar& g
   for (const simeco::PlantGrammar& plant : grammar.plants) {
     for (const simeco::OrganBlock& organ : plant.organs)
       if (organ.kind == simeco::OrganKind::Stem)
-        for (const simeco::Stage& stage : organ.stages) mark(segments, lines, stage.where, stage.number);
+        for (const simeco::Stage& stage : organ.stages) {
+          const std::uint32_t end = stage.attributes.empty() ? stage.where.end : std::max(stage.where.end, stage.attributes.back().where.end);
+          mark(segments, lines, {stage.where.begin, end}, stage.number);
+        }
     for (const simeco::Production& rule : plant.rules.productions)
       if (rule.predecessor.size() == 1)
         if (const auto stage = stageOf(grammar, rule.predecessor.front())) mark(segments, lines, rule.where, *stage);

@@ -18,9 +18,9 @@ Colour inkOf(const Palette& palette, TokenRole role) {
     case TokenRole::Attribute:
     case TokenRole::Directive: return palette.accent;
     case TokenRole::Number: return palette.warning;
-    case TokenRole::Text:
-    case TokenRole::Function:
+    case TokenRole::Text: return palette.warning;
     case TokenRole::Unknown: return palette.error;
+    case TokenRole::Function:
     case TokenRole::Macro:
     case TokenRole::Module:
     case TokenRole::Branch:
@@ -160,7 +160,7 @@ void writable(const Panel& panel, float gutter) {
   for (int i = first; i < std::min(first + shown, static_cast<int>(sheet.lines.size())); ++i)
     drawLine(panel, sheet, static_cast<std::size_t>(i), {at.x, at.y + static_cast<float>(i) * height}, gutter, size.x + gutter, marks);
   if (ImGui::IsItemActive()) {
-    const auto line = placeOf(draft.text, std::min<std::size_t>(draft.cursor, draft.text.size())).line - 1;
+    const auto line = placeOf(draft.text, static_cast<std::uint32_t>(std::min<std::size_t>(draft.cursor, draft.text.size()))).line - 1;
     const float y = at.y + static_cast<float>(line) * height;
     const auto column = draft.cursor - sheet.spans[static_cast<std::size_t>(std::clamp(line, 0, static_cast<int>(sheet.spans.size()) - 1))].begin;
     const float x = at.x + gutter + static_cast<float>(column) * ImGui::CalcTextSize("0").x;

@@ -282,6 +282,29 @@ void lookSliders(const Panel& panel) {
   for (const document::ProjectView& view : panel.project.views) panel.state.looks[view.view.name] = look;
 }
 
+/// What keeps the plant from being measured, and the nodes that wait for a second photo.
+std::vector<std::string> missing(const Panel& panel) {
+  std::vector<std::string> lines;
+  const auto& skeleton = panel.following.skeleton;
+  if (skeleton.trouble && skeleton.trouble->details.empty()) lines.push_back(skeleton.trouble->message);
+  if (skeleton.trouble) lines.insert(lines.end(), skeleton.trouble->details.begin(), skeleton.trouble->details.end());
+  if (skeleton.good && !skeleton.trouble)
+    for (const auto& node : skeleton.good->incomplete) lines.push_back(filled(panel.t("node_waits"), {{"node", std::to_string(node.id.value)}}));
+  return lines;
+}
+
+void stillMissing(const Panel& panel) {
+  constexpr std::size_t kMost = 6;
+  if (panel.project.nodes.empty()) return;
+  const std::vector<std::string> lines = missing(panel);
+  panel.state.shownTroubles = lines.size();
+  if (lines.empty()) return;
+  gap(panel, 6);
+  heading(panel, "to_do");
+  for (std::size_t i = 0; i < std::min(lines.size(), kMost); ++i) say(panel, NoticeKind::Warned, lines[i]);
+  if (lines.size() > kMost) quiet(panel, filled(panel.t("and_more"), {{"n", std::to_string(lines.size() - kMost)}}));
+}
+
 }  // namespace
 
 void wayPanel(const Panel& panel) {
@@ -394,15 +417,7 @@ Taken stemsPanel(const Panel& panel) {
     ImGui::PopFont();
     ImGui::PopID();
   }
-  if (panel.following.skeleton.trouble && !panel.project.nodes.empty()) {
-    gap(panel, 6);
-    heading(panel, "to_do");
-    const Error& trouble = *panel.following.skeleton.trouble;
-    panel.state.shownTroubles = std::max<std::size_t>(trouble.details.size(), 1);
-    if (trouble.details.empty()) say(panel, NoticeKind::Warned, trouble.message);
-    for (std::size_t i = 0; i < std::min<std::size_t>(trouble.details.size(), 6); ++i) say(panel, NoticeKind::Warned, trouble.details[i]);
-    if (trouble.details.size() > 6) quiet(panel, filled(panel.t("and_more"), {{"n", std::to_string(trouble.details.size() - 6)}}));
-  }
+  stillMissing(panel);
   return taken;
 }
 
