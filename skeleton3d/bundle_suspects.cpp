@@ -15,6 +15,7 @@ namespace axil::skeleton3d::detail {
 namespace {
 
 constexpr double kLeastClick_px = 0.3;      // no one clicks better; below it rounding would be suspected
+constexpr double kTwoAlone = 2.5;           // times the limit, in pixels: two clicks that nothing can replace lose a node its place
 constexpr double kWorthNaming = 0.05;       // of being the wrong one
 
 ClickedNode clickedAgain(const BundlePoint& point, const std::vector<View>& views) {
@@ -93,7 +94,7 @@ std::vector<SuspectClick> allOf(const ClickedNode& node, const Fit& fit, const s
 }
 
 std::vector<SuspectClick> suspectsWhere(const ClickedNode& node, const std::optional<Fit>& fit, const std::vector<View>& views, double click_px, const StemCourse& course) {
-  if (!fit || fits(node, *fit)) return {};
+  if (!fit || fits(node, *fit) || (node.clicks.size() == 2 && fit->squares <= kTwoAlone * kTwoAlone * chiSquaredLimit(1))) return {};
   const auto accused = accusedOf(node, views, click_px, course);
   return accused.empty() ? allOf(node, *fit, views) : weighed(node.id, accused);
 }

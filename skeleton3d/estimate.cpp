@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace axil::skeleton3d {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 using detail::Bundle;
 
 constexpr double kLoss = 4;         // standard deviations, beyond which a click counts less and less
+constexpr double kMostSuspect = 0.2;  // of the nodes, where the views would fit if they were read otherwise: no few wrong clicks, but wrong views
 constexpr double kGentle_px = 30;  // the same for a first guess, which may be off by many pixels
 
 double clickOr(const EstimateOptions& options, double found_px) { return options.click_px.value_or(found_px); }
@@ -44,6 +46,14 @@ Result<Bundle> adjustedRobustly(const Bundle& guess, const EstimateOptions& opti
   return detail::adjustBundle(*std::move(bundle), {clickOr(options, detail::robustScatterOf(*bundle).click_px), kLoss, options});
 }
 
+Failure misread(const std::string& better) { return fail(ErrorCode::NoAnswer, "the views do not fit together: " + better); }
+
+double suspectNodes(const std::vector<SuspectClick>& suspects) {
+  std::set<NodeId> nodes;
+  for (const SuspectClick& suspect : suspects) nodes.insert(suspect.node);
+  return static_cast<double>(nodes.size());
+}
+
 /// Everything but the last round: cameras and nodes that fit, wrong clicks among them.
 Result<Bundle> fitted(std::span<const View> views, const std::map<std::string, UnknownCameraHints>& hints, std::span<const ClickedNode> nodes,
                       const EstimateOptions& options) {
@@ -58,7 +68,7 @@ Result<Bundle> fitted(std::span<const View> views, const std::map<std::string, U
   }
   const std::string better = detail::betterReading(*gathered, options, std::nullopt);
   if (better.empty()) return bundle;
-  return fail(ErrorCode::NoAnswer, "the views do not fit together: " + better);
+  return misread(better);
 }
 
 /// The wrong clicks, and the bundle without them.
@@ -172,7 +182,10 @@ Result<EstimatedCameras> estimateCameras(std::span<const View> views, const std:
   const auto done = detail::adjustBundle(*withRods, {click_px, kLoss, options});
   if (!done) return done.failure();
   EstimatedCameras estimated = resultOf(views, *done, std::move(suspects), options);
-  if (std::string doubt = detail::doubtOn(*bundle, options); !doubt.empty()) estimated.notes.push_back(std::move(doubt));
+  for (std::string& note : detail::borderNotes(*bundle)) estimated.notes.push_back(std::move(note));
+  std::string doubt = detail::doubtOn(*bundle, options);
+  if (!doubt.empty() && suspectNodes(estimated.suspects) > kMostSuspect * static_cast<double>(bundle->nodes)) return misread(doubt);
+  if (!doubt.empty()) estimated.notes.push_back(std::move(doubt));
   return estimated;
 }
 

@@ -108,24 +108,6 @@ std::vector<std::string> lengthNotes(const Bundle& bundle, const EstimatedCamera
   return notes;
 }
 
-/// Several clicks at the very edge of a photo: the plant goes on beyond it.
-std::vector<std::string> borderNotes(const Bundle& bundle) {
-  std::vector<std::string> notes;
-  for (std::size_t v = 0; v < bundle.cameras.size(); ++v) {
-    const BundleCamera& camera = bundle.cameras[v];
-    const glm::dvec2 size(camera.view.size_px);
-    const double margin = 0.002 * longerSide(camera);
-    std::size_t atEdge = 0;
-    for (std::size_t p = 0; p < bundle.nodes; ++p)
-      for (const BundleClick& click : bundle.points[p].clicks)
-        atEdge += click.view == v && (click.px.x < margin || click.px.y < margin || click.px.x > size.x - margin || click.px.y > size.y - margin) ? 1 : 0;
-    if (!camera.known && atEdge > 0)
-      notes.push_back("view '" + camera.view.name + "' cuts the plant off: " + std::to_string(atEdge) + (atEdge == 1 ? " click lies" : " clicks lie") +
-                      " on its border, where a part that goes on is no node; leave them out there or step back");
-  }
-  return notes;
-}
-
 std::vector<std::string> nodeNotes(const Uncertainty& uncertainty) {
   std::vector<double> sigmas;
   for (const NodeSpread& node : uncertainty.nodes) {
@@ -153,12 +135,29 @@ std::vector<std::string> uprightNotes(const Bundle& bundle, const Uncertainty& u
 
 }  // namespace
 
+/// Several clicks at the very edge of a photo: the plant goes on beyond it.
+std::vector<std::string> borderNotes(const Bundle& bundle) {
+  std::vector<std::string> notes;
+  for (std::size_t v = 0; v < bundle.cameras.size(); ++v) {
+    const BundleCamera& camera = bundle.cameras[v];
+    const glm::dvec2 size(camera.view.size_px);
+    const double margin = 0.002 * longerSide(camera);
+    std::size_t atEdge = 0;
+    for (std::size_t p = 0; p < bundle.nodes; ++p)
+      for (const BundleClick& click : bundle.points[p].clicks)
+        atEdge += click.view == v && (click.px.x < margin || click.px.y < margin || click.px.x > size.x - margin || click.px.y > size.y - margin) ? 1 : 0;
+    if (!camera.known && atEdge > 0)
+      notes.push_back("view '" + camera.view.name + "' cuts the plant off: " + std::to_string(atEdge) + (atEdge == 1 ? " click lies" : " clicks lie") +
+                      " on its border, where a part that goes on is no node; leave them out there or step back");
+  }
+  return notes;
+}
+
 std::vector<std::string> notesOn(const Bundle& bundle, const std::vector<Miss>& misses, const EstimatedCameras& estimated) {
   std::vector<std::string> notes;
   const auto add = [&](std::vector<std::string> more) { notes.insert(notes.end(), more.begin(), more.end()); };
   add(originNotes(bundle, estimated.uncertainty.click_px));
   add(lengthNotes(bundle, estimated));
-  add(borderNotes(bundle));
   add(nodeNotes(estimated.uncertainty));
   add(uprightNotes(bundle, estimated.uncertainty));
   constexpr double kRough_px = 6;

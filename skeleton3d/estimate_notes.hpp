@@ -23,7 +23,10 @@ namespace axil::skeleton3d::detail {
 
 [[nodiscard]] std::vector<std::string> weaknessesOf(const BundleCamera& camera, const CameraReport& report);
 
-/// Origins and known lengths that contradict one another, views that cut the plant off, a size or nodes known poorly.
+/// Views that cut the plant off, of all points that were clicked: those at a border are often among the suspects.
+[[nodiscard]] std::vector<std::string> borderNotes(const Bundle& all);
+
+/// Origins and known lengths that contradict one another, a size or nodes known poorly.
 [[nodiscard]] std::vector<std::string> notesOn(const Bundle& bundle, const std::vector<Miss>& misses, const EstimatedCameras& estimated);
 
 }  // namespace axil::skeleton3d::detail

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -95,14 +96,13 @@ std::optional<Across> acrossOf(const Photo& photo, const End& end) {
   return best;
 }
 
-/// How the mean colour of a strip changes at `along`.
+/// How the colour changes at `along`, as a mean over lines nearer to the edges than to the middle: a round rod seen a little
+/// from above ends in a rim, whose sides are level with its middle while its front is nearer to the camera.
 double changeAt(const Photo& photo, const End& end, double along, double middle, double half) {
   glm::dvec3 change{0, 0, 0};
-  constexpr int kLines = 5;
-  for (int i = 0; i < kLines; ++i) {
-    const double across = middle + half * (2.0 * i / (kLines - 1) - 1);
-    change += (colourAt(photo, end.at(along + 0.75, across)) - colourAt(photo, end.at(along - 0.75, across))) / static_cast<double>(kLines);
-  }
+  constexpr std::array kLines = {-0.85, -0.65, 0.65, 0.85};
+  for (const double line : kLines)
+    change += (colourAt(photo, end.at(along + 0.75, middle + line * half)) - colourAt(photo, end.at(along - 0.75, middle + line * half))) / static_cast<double>(kLines.size());
   return glm::length(change);
 }
 
@@ -114,11 +114,11 @@ double finePlace(const Sampled& samples, std::size_t peak) {
 }
 
 std::optional<double> alongOf(const Photo& photo, const End& end, const Across& rod) {
-  const double beside = rod.half + 2.5, strip = 0.6 * rod.half;
+  const double beside = rod.half + 2.5;
   const Sampled ends = sampled(end.reach, [&](double along) {
     const double sides = std::max(changeAt(photo, end, along, rod.middle - beside, 1), changeAt(photo, end, along, rod.middle + beside, 1));
     const double share = along / end.reach;
-    return std::max(changeAt(photo, end, along, rod.middle, strip) - 0.7 * sides, 0.0) * (1 - 0.4 * share * share);
+    return std::max(changeAt(photo, end, along, rod.middle, rod.half) - 0.7 * sides, 0.0) * (1 - 0.4 * share * share);
   });
   auto peaks = peaksOf(ends);
   if (peaks.empty()) return std::nullopt;
