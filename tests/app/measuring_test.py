@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """`axil skeleton --report` and `axil calibrate` as a user runs them: photographs without calibration, and what goes wrong with them.
 
-  measuring_test.py AXIL [TEST ...]
+  measuring_test.py AXIL SOURCE_FOLDER [TEST ...]
 """
 import json
 import math
@@ -15,6 +15,8 @@ import tempfile
 import unittest
 
 AXIL = str(pathlib.Path(sys.argv[1]).resolve())
+SOURCE = pathlib.Path(sys.argv[2]).resolve()
+HAND = SOURCE.parent / "shared/data/plants/real/arabidopsis/measures.json"
 SIZE = (1200, 1600)
 NOMINAL = {"front": ((1, 0, 0), (0, -1, 0), (0, 0, -1)), "right": ((0, 0, -1), (0, -1, 0), (-1, 0, 0)), "top": ((1, 0, 0), (0, 0, 1), (0, -1, 0))}
 
@@ -262,6 +264,56 @@ class Skeleton(Case):
         self.assertGreater(answered, 5)
 
 
+def minus(a, b):
+    return [x - y for x, y in zip(a, b)]
+
+
+def across(vector, along):
+    """What of `vector` is perpendicular to `along`."""
+    share = sum(x * y for x, y in zip(vector, along)) / sum(y * y for y in along)
+    return [x - share * y for x, y in zip(vector, along)]
+
+
+def turn_about(along, a, b):
+    """The angle in degrees from `a` to `b` about `along`."""
+    a, b, length = across(a, along), across(b, along), math.hypot(*along)
+    cross = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+    return math.degrees(math.atan2(sum(x * y for x, y in zip(cross, along)) / length, sum(x * y for x, y in zip(a, b))))
+
+
+class Arabidopsis(Case):
+    """26 siliques clicked in two photographs of a real plant: node 2 i is where silique i + 5 leaves its stem, node 2 i + 1 its tip."""
+
+    def test_two_photographs_without_calibration_agree_with_the_hand(self):
+        if not HAND.exists():
+            self.skipTest("the hand's measures are not here")
+        status, out, err = axil("skeleton", SOURCE / "tests/golden/arabidopsis/arabidopsis.axil")
+        self.assertEqual(status, 0, err)
+        at = {node["id"]: node["position"] for node in json.loads(out)["nodes"]}
+        placed = [i for i in range(26) if 2 * i in at and 2 * i + 1 in at]
+        self.assertGreaterEqual(len(placed), 20)
+        hand = json.loads(HAND.read_text())
+        turns, ours, theirs = [], [], []
+        for before, here in zip(placed, placed[1:]):
+            if here != before + 1:
+                continue
+            low, high = max(j for j in placed if j <= max(here - 2, placed[0])), min(j for j in placed if j >= min(here + 2, placed[-1]))
+            turn = turn_about(minus(at[2 * high], at[2 * low]), minus(at[2 * before + 1], at[2 * before]), minus(at[2 * here + 1], at[2 * here]))
+            turns.append((here, turn, math.degrees(hand["angles"][here + 3 + 0])))
+            ours.append(math.dist(at[2 * here], at[2 * before]))
+            theirs.append(hand["internodes"][here + 3])
+        apart = min((sorted(abs(math.remainder(sense * turn - want, 360)) for _, turn, want in turns) for sense in (1, -1)), key=lambda d: d[len(d) // 2])
+        scale = sum(a * b for a, b in zip(ours, theirs)) / sum(a * a for a in ours)
+        mean = [sum(values) / len(values) for values in (ours, theirs)]
+        sxy, sxx, syy = (sum((a[i] - x) * (b[i] - y) for i in range(len(ours))) for a, x, b, y in ((ours, mean[0], theirs, mean[1]), (ours, mean[0], ours, mean[0]), (theirs, mean[1], theirs, mean[1])))
+        off = sum(abs(scale * a - b) for a, b in zip(ours, theirs)) / len(ours)
+        correlation = sxy / math.sqrt(sxx * syy)
+        print(f"{len(placed)} siliques: divergence differs by {apart[len(apart) // 2]:.1f} degrees (median); internodes: correlation {correlation:.3f}, mean difference {off:.2f} mm; scale {scale:.1f}")
+        self.assertLessEqual(apart[len(apart) // 2], 10)
+        self.assertGreaterEqual(correlation, 0.95)
+        self.assertLessEqual(off, 2)
+
+
 class Calibrate(Case):
     def test_says_what_is_wrong_with_its_photos(self):
         plain = self.folder / "plain.bmp"
@@ -276,4 +328,4 @@ class Calibrate(Case):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
