@@ -1,3 +1,4 @@
+#include "app/cli_interop.hpp"
 #include "app/commands.hpp"
 #include "app/project_options.hpp"
 #include "base/files.hpp"
@@ -29,15 +30,32 @@ struct EmitCommand {
   std::vector<std::string> also;
 };
 
-/// How to predict: by the plant's own statistics and those of the plants named beside it.
-Result<emit::PredictiveOptions> predictiveOptions(const EmitCommand& command) {
-  emit::PredictiveOptions options{.style = command.style, .stages = command.stages, .also = {}};
+/// The plants whose statistics count beside the project's own.
+Result<std::vector<quantify::Measurements>> alsoOf(const EmitCommand& command) {
+  std::vector<quantify::Measurements> plants;
   for (const std::string& file : command.also) {
     auto plant = document::readPlant(file, {.watch = terminalWatch()});
     if (!plant) return plant.failure();
-    options.also.push_back(std::move(plant->measurements));
+    plants.push_back(std::move(plant->measurements));
   }
-  return options;
+  return plants;
+}
+
+/// Options that the kind does not read are mistakes: nothing is ignored silently.
+std::string misplacedOption(const CLI::App& sub, const EmitCommand& command) {
+  using document::GrammarKind;
+  const bool predictive = command.kind == GrammarKind::Predictive;
+  const bool structured = command.kind == GrammarKind::Structured;
+  const bool exact = structured && command.structure.form == emit::StructuredForm::Exact;
+  const auto given = [&sub](const char* option) { return sub.count(option) > 0; };
+  for (const char* option : {"--style", "--stages"})
+    if (given(option) && !predictive) return std::string(option) + " is of a predictive grammar; add --kind predictive or leave it out";
+  if (given("--form") && !structured) return "--form is of a structured grammar; add --kind structured or leave it out";
+  for (const char* option : {"--error", "--detail"})
+    if (given(option) && !exact) return std::string(option) + " is of the exact form; add --kind structured --form exact or leave it out";
+  if (given("--orders") && (!structured || exact)) return "--orders is of the statistical form; add --kind structured or leave it out";
+  if (given("--also") && (exact || command.kind == GrammarKind::Initial)) return "--also adds statistics, which only predictive grammars and the statistical form have; leave it out";
+  return {};
 }
 
 /// To OUT, with the files that the dialect wants beside it; without OUT the text alone, to stdout.
@@ -55,9 +73,15 @@ int written(const emit::DialectText& text, const std::string& out) {
 int run(const EmitCommand& command) {
   if (command.dialect != emit::Dialect::SimEco && command.turning == TurningRule::Literal)
     return report({ErrorCode::BadInput, "only SimEco text can follow the literal turning rule; leave --literal out for other dialects", {}});
-  const auto predictive = predictiveOptions(command);
-  if (!predictive) return report(predictive.error());
-  const document::ChainOptions options{.turning = command.turning, .decimals = command.decimals, .predictive = *predictive, .structure = command.structure, .watch = terminalWatch()};
+  const auto also = alsoOf(command);
+  if (!also) return report(also.error());
+  emit::StructureOptions structure = command.structure;
+  if (command.kind == document::GrammarKind::Structured) structure.also = *also;
+  const document::ChainOptions options{.turning = command.turning,
+                                       .decimals = command.decimals,
+                                       .predictive = {.style = command.style, .stages = command.stages, .also = *also},
+                                       .structure = structure,
+                                       .watch = terminalWatch()};
   const auto open = document::loadProject(command.project);
   if (!open) return report(open.error());
   const auto grammar = document::grammarOf(*open, command.kind, options);
@@ -83,8 +107,8 @@ void addEmit(CLI::App& sub, int& status) {
                    "  axil emit plant.axil --kind structured > rules.simeco   # the same habit in few rules\n"
                    "  axil emit plant.axil --kind initial --dialect cpfg -o plant.l     # and plant.v, plant.a");
   addProject(sub, command.project);
-  sub.add_option("--kind", command.kind, "initial, predictive or structured")->transform(CLI::CheckedTransformer(kKinds))->option_text("KIND [initial]");
-  sub.add_option("--dialect", command.dialect, "simeco, cpfg, lpy or mtg")->transform(CLI::CheckedTransformer(kDialects))->option_text("DIALECT [simeco]");
+  sub.add_option("--kind", command.kind, "initial, predictive or structured")->transform(oneOf(kKinds))->option_text("KIND [initial]");
+  sub.add_option("--dialect", command.dialect, "simeco, cpfg, lpy or mtg")->transform(oneOf(kDialects))->option_text("DIALECT [simeco]");
   sub.add_option("--decimals", command.decimals, "Digits after the point; -1 prints full precision")->check(CLI::Range(-1, 15))->capture_default_str();
   sub.add_option("-o,--out", command.out, "Write to this file instead of stdout; cpfg's view and animation files go beside it");
   sub.add_option("--seed", command.seed, "Which plant of a family the mtg table shows, and the seed in a lpy program")->capture_default_str();
@@ -98,8 +122,11 @@ void addEmit(CLI::App& sub, int& status) {
       ->transform(CLI::CheckedTransformer(kStyles))
       ->option_text("STYLE [layered]");
   sub.add_option("--stages", command.stages, "Of a predictive grammar: how many stages ahead")->check(CLI::Range(1, emit::kMostStages))->capture_default_str();
-  sub.add_option("--also", command.also, "Of a predictive grammar: further plants of the species (.axil or skeleton .json) whose statistics count, each once")->option_text("PLANT...");
+  sub.add_option("--also", command.also, "Of a predictive grammar or the statistical form: further plants of the species (.axil or skeleton .json) whose statistics count")->option_text("PLANT...");
   addLiteral(sub, command.turning);
+  sub.parse_complete_callback([&sub, &command] {
+    if (const std::string mistake = misplacedOption(sub, command); !mistake.empty()) throw CLI::ValidationError(mistake);
+  });
 }
 
 }  // namespace axil::app

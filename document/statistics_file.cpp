@@ -148,6 +148,7 @@ std::string arrangementText(const char* organs, const Phyllotaxis& p) {
   text += ", divergence " + fixed(p.divergence.degrees(), 1) + " +- " + fixed(p.error.degrees(), 1) + " degrees (single steps vary by " + fixed(p.deviation.degrees(), 1) + ", " +
           std::to_string(p.samples) + " steps)";
   if (p.preset == "irregular") return text + "; no regular arrangement\n";
+  if (p.preset == "none") return text + "; no arrangement known fits (" + p.nearest + " is " + fixed(p.off.degrees(), 1) + " degrees off)\n";
   return text + (p.preset.empty() ? "\n" : "; fits " + p.preset + ", " + fixed(p.off.degrees(), 1) + " degrees off\n");
 }
 

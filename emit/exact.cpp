@@ -3,9 +3,9 @@
 #include "base/text.hpp"
 #include "emit/assembly.hpp"
 #include "emit/exact_plan.hpp"
+#include "emit/habit_words.hpp"
 #include "emit/plan.hpp"
-#include "quantify/branching.hpp"
-#include "quantify/phyllotaxis.hpp"
+#include "quantify/structure.hpp"
 #include "simeco/language.hpp"
 
 #include <algorithm>
@@ -29,7 +29,6 @@ std::string number(double value) {
   if (text.find('e') == std::string::npos) return text;
   return fixed(value, std::clamp(2 - static_cast<int>(std::floor(std::log10(std::abs(value)))), 0, 17));
 }
-std::string degrees(double radians) { return fixed(radians * 180 / std::numbers::pi, 0); }
 std::string percent(double share) { return shortest(roundedTo(100 * share, 1)) + " %"; }
 
 /// A grammar's text while it is written: whether a table is needed is decided once, and rules only name what is.
@@ -73,29 +72,8 @@ class ExactText {
   void heading() {
     line("// Regrows a measured plant of " + countOf(m_.segments.size(), "segment", "segments") + " and " + countOf(layout_.leafOf.size(), "leaf", "leaves") + ", " +
          shortest(roundedTo(plan_.height, 3)) + " " + m_.unit + " high; its nodes stand within " + percent(plan_.worst) + " of that (mean " + percent(plan_.mean) + ").");
-    line("// Habit: " + habit() + ".");
+    line("// Habit: " + habitWords(std::span(&m_, 1)) + ".");
   }
-  std::string habit() const {
-    std::string words = structure_.branching == quantify::Branching::Sympodial ? "sympodial" : structure_.branching == quantify::Branching::Monopodial ? "monopodial" : "unbranched";
-    const quantify::MeasuredPlant plant{&m_, &structure_};
-    if (hasBranches()) {
-      words += ", " + countOf(static_cast<std::size_t>(layout_.orders), "branching order", "branching orders");
-      const auto pattern = quantify::branchingPatternOf(std::span(&plant, 1), 0);
-      if (pattern.habit == quantify::BranchingHabit::EveryKth) words += ", every " + std::to_string(pattern.period) + ". node branches";
-      else if (pattern.habit != quantify::BranchingHabit::None && pattern.habit != quantify::BranchingHabit::Even) words += std::string(", ") + quantify::nameOf(pattern.habit);
-    }
-    words += arrangement(quantify::OrgansAround::Branches, "branches") + arrangement(quantify::OrgansAround::Leaves, "leaves");
-    return words;
-  }
-  std::string arrangement(quantify::OrgansAround organs, const std::string& name) const {
-    const quantify::MeasuredPlant plant{&m_, &structure_};
-    const auto p = quantify::phyllotaxisOf(std::span(&plant, 1), organs);
-    if (p.perNode == 0) return {};
-    std::string words = "; " + name + " " + (p.preset.empty() ? std::to_string(p.perNode) + " a node" : p.preset);
-    if (p.samples > 0 && p.chance <= 0.05) words += " (" + degrees(p.divergence.radians()) + " degrees on)";
-    return words;
-  }
-
   // ---- organs ----
 
   void stages() {

@@ -2,8 +2,10 @@
 /// \file
 /// The structured grammar: the plant in few self-iterating rules that a person can read. Two forms.
 ///
-/// *Statistical*: plants like the measured one. Two rules a branching order, `A(order, n)` being an apex that still makes n segments; numbers are
-/// drawn as they were measured on that order. It describes a family, of which every seed grows one.
+/// *Statistical*: the family of plants that the measured one, or several, look like samples of (quantify/family.hpp). At most two rules a branching order:
+/// `A(order, rank, length, around, side, left)` is an apex that may still make `left` segments, one rule while there are more to come and one for the
+/// last; parameters that no order needs are left out. Numbers are drawn as measured, by a normal or even distribution where one fits, else from a table of
+/// quantiles. `Depth` bounds the branching orders. Every seed grows one of the family.
 ///
 /// *Exact*: this plant. One rule for an apex, one for axillary buds and one for leaf buds serve all orders; what the rules say about every
 /// segment (usual length, bend, insertion, divergence) stands in short arrays by order, and where a segment differs, a table says by how
@@ -31,6 +33,7 @@ struct StructureOptions {
   std::optional<int> orders = {};  ///< how many branching orders to keep, from 1; none: all that were measured
   double maximumError = 0.015;     ///< exact: how far a node may be from where it was measured, as a share of the height
   double detail = 1;               ///< exact: how much an error weighs against the length of the text
+  std::vector<quantify::Measurements> also = {};  ///< statistical: further plants of the species
 };
 
 /// Fails as initialGrammar does, and with BadInput for options out of range.

@@ -243,6 +243,8 @@ double chanceOf(double ks, double n) {
   return std::clamp(sum, 0.0, 1.0);
 }
 
+constexpr double kSame = 1e-9;  // lengths as shares of a height, radians: what differs by less differs by rounding alone
+
 }  // namespace
 
 Result<PlantComparison> comparePlants(const Measurements& a, const Measurements& b, const CompareOptions& options) {
@@ -279,8 +281,8 @@ DistributionDistance distanceOf(std::string quantity, std::vector<double> a, std
     const double apart = std::abs(static_cast<double>(i) / static_cast<double>(a.size()) - static_cast<double>(j) / static_cast<double>(b.size()));
     d.wasserstein += apart * (x - last);
     last = x;
-    while (i < a.size() && a[i] == x) ++i;
-    while (j < b.size() && b[j] == x) ++j;
+    while (i < a.size() && a[i] <= x + kSame) ++i;
+    while (j < b.size() && b[j] <= x + kSame) ++j;
     d.ks = std::max(d.ks, std::abs(static_cast<double>(i) / static_cast<double>(a.size()) - static_cast<double>(j) / static_cast<double>(b.size())));
   }
   const double n = static_cast<double>(a.size()) * static_cast<double>(b.size()) / static_cast<double>(a.size() + b.size());

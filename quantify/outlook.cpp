@@ -410,20 +410,25 @@ const char* nameOf(LengthRule rule) {
 
 const OrderOutlook& Outlook::of(int order) const { return orders[static_cast<std::size_t>(std::clamp(order, 0, static_cast<int>(orders.size()) - 1))]; }
 
-Result<Outlook> outlookOf(std::span<const Measurements> given) {
+Result<Outlook> anyOutlookOf(std::span<const Measurements> given) {
   auto statistics = layeredStatistics(given);
   if (!statistics) return statistics.failure();
   std::vector<std::string> known;  // layeredStatistics has warned already
   const auto plants = inOneUnit(given, known);
   if (!plants) return plants.failure();
-  const auto branches = [](const Measurements& m) { return std::any_of(m.segments.begin(), m.segments.end(), [](const Segment& s) { return !s.children.empty(); }); };
-  if (std::none_of(plants->begin(), plants->end(), branches))
-    return fail(ErrorCode::NoAnswer, "nothing can be predicted: no segment of the plant has a child, so nothing shows how it goes on; measure it with more nodes, or add plants of its kind");
   std::vector<PlantStructure> structures;
   for (const Measurements& m : *plants) structures.push_back(plantStructure(m));
   std::vector<MeasuredPlant> measured;
   for (std::size_t p = 0; p < plants->size(); ++p) measured.push_back({&(*plants)[p], &structures[p]});
   return Maker(measured, std::move(*statistics)).made();
+}
+
+Result<Outlook> outlookOf(std::span<const Measurements> given) {
+  const auto branches = [](const Measurements& m) { return std::any_of(m.segments.begin(), m.segments.end(), [](const Segment& s) { return !s.children.empty(); }); };
+  const bool empty = given.empty() || std::any_of(given.begin(), given.end(), [](const Measurements& m) { return m.segments.empty(); });
+  if (!empty && std::none_of(given.begin(), given.end(), branches))
+    return fail(ErrorCode::NoAnswer, "nothing can be predicted: no segment of the plant has a child, so nothing shows how it goes on; measure it with more nodes, or add plants of its kind");
+  return anyOutlookOf(given);
 }
 
 }  // namespace axil::quantify

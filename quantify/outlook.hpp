@@ -95,5 +95,7 @@ struct Outlook {
 /// The outlook of the first plant, by what all of them show. Fails as layeredStatistics does, and with NoAnswer where no segment of any plant has a
 /// child: nothing shows how it goes on.
 [[nodiscard]] Result<Outlook> outlookOf(std::span<const Measurements> plants);
+/// Of plants of a single segment too, which show what they have.
+[[nodiscard]] Result<Outlook> anyOutlookOf(std::span<const Measurements> plants);
 
 }  // namespace axil::quantify

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kRegular = 0.05;      // chance above which no preset is named
+constexpr double kPresetReach = 10 * std::numbers::pi / 180;
 constexpr double kAgree = 0.6;         // concentration from which axes wind the same way
 const double kStraightAcross = 3 * std::numbers::pi / 180;  // of 0 or half a period: no winding
 
@@ -109,6 +110,10 @@ Divergences wound(const std::vector<std::vector<double>>& axes, double period) {
   return result;
 }
 
+/// Words that tell how dense or orderly leaves are; their divergence is the spiral's for want of another. (A cycle of unequal turns has no mean to compare with.)
+bool saysNoAngle(std::string_view name) { return name == "scattered" || name == "imbricate"; }
+
+/// An arrangement is named where the mean is no further from it than plants of one arrangement vary.
 void namePreset(Phyllotaxis& fit) {
   if (fit.samples < 2) return;
   if (fit.chance > kRegular) {
@@ -118,7 +123,7 @@ void namePreset(Phyllotaxis& fit) {
   double best = kTurn;
   for (const std::string& name : keywords::arrangementNames()) {
     const auto preset = keywords::arrangementNamed(name);
-    if (!preset || preset->clustered) continue;
+    if (!preset || preset->clustered || !preset->cycle.empty() || saysNoAngle(name)) continue;
     if (preset->leavesPerNode != fit.perNode && !(fit.perNode > 2 && preset->leavesPerNode > 2)) continue;
     // The vocabulary's whorl has three; others stand above the gaps of the whorl below as it does.
     const auto whorl = preset->leavesPerNode == fit.perNode ? *preset : keywords::withLeavesPerNode(*preset, fit.perNode);
@@ -127,10 +132,12 @@ void namePreset(Phyllotaxis& fit) {
     const double off = std::abs(fit.divergence.radians() - expected);
     if (off > best + 1e-9) continue;  // of equal ones the later in the table, which is the more precise
     best = off;
-    fit.preset = name;
+    fit.nearest = name;
     fit.presetDivergence = Angle::fromRadians(expected);
     fit.off = Angle::fromRadians(off);
   }
+  const double reach = std::max(kPresetReach, 3 * fit.error.radians());
+  fit.preset = !fit.nearest.empty() && best <= reach ? fit.nearest : "none";
 }
 
 Phyllotaxis fitted(const std::vector<AxisNodes>& axes, OrgansAround organs) {

@@ -30,7 +30,8 @@ struct Phyllotaxis {
   double chance = 1;            ///< that evenly spread steps look as regular (Rayleigh)
   Winding winding = Winding::None;
   std::size_t samples = 0;      ///< differences between neighbouring nodes
-  std::string preset;           ///< "spiral", "decussate", ...; "irregular" where chance is above 0.05; empty: too few samples
+  std::string preset;           ///< "spiral", "decussate", ...; "irregular" where chance is above 0.05; "none" where none is within 10 degrees or three standard errors; empty: too few samples
+  std::string nearest;          ///< the preset whose divergence is nearest, fit or not
   Angle presetDivergence;
   Angle off;                    ///< divergence - presetDivergence, absolute
 

@@ -22,5 +22,6 @@
 #include "quantify/schedule.hpp"    // when each part was made, and what still grows
 #include "quantify/layers.hpp"      // statistics by order and rank, of one plant or many
 #include "quantify/outlook.hpp"     // what the next stages will be like
+#include "quantify/family.hpp"      // the process that plants look like samples of
 #include "quantify/backtest.hpp"    // how well that foretells what is known
 #include "quantify/compare.hpp"     // how near two plants, or two sets of plants, are

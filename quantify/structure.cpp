@@ -12,6 +12,7 @@ namespace axil::quantify {
 namespace {
 
 constexpr double kForkRatio = 0.5;       // children whose angles are this alike fork
+constexpr double kClearlyMore = 10 * std::numbers::pi / 180;
 constexpr double kNoSide = 0.5 * std::numbers::pi / 180;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -54,15 +55,42 @@ bool stemEndsFork(const Measurements& m) {
   return !ratios.empty() && medianOf(std::move(ratios)) > kForkRatio;
 }
 
+/// The usual angle of what goes on along a stem, and of what leaves one that goes on.
+struct UsualAngles {
+  std::optional<double> bend;
+  std::optional<double> insertion;
+};
+UsualAngles usualAngles(const Measurements& m) {
+  std::vector<double> bends;
+  std::vector<double> insertions;
+  for (const Segment& s : m.segments) {
+    const auto same = sameStem(m, s);
+    if (!same) continue;
+    for (const SegmentId child : s.children) (child == *same ? bends : insertions).push_back(angleBetween(s.direction, m.at(child).direction).radians());
+  }
+  UsualAngles usual;
+  if (!bends.empty()) usual.bend = medianOf(std::move(bends));
+  if (!insertions.empty()) usual.insertion = medianOf(std::move(insertions));
+  return usual;
+}
+
+/// Whether a stem's end goes on in its only child: not where that leans like the plant's branches and unlike its bends.
+bool onlyChildGoesOn(const Measurements& m, const Segment& segment, const UsualAngles& usual) {
+  if (!usual.bend || !usual.insertion || *usual.insertion < *usual.bend + kClearlyMore) return true;
+  const double angle = angleBetween(segment.direction, m.at(segment.children.front()).direction).radians();
+  return angle < (*usual.bend + *usual.insertion) / 2;
+}
+
 /// What goes on from each segment along its axis.
 std::vector<std::optional<SegmentId>> continuations(const Measurements& m) {
   const bool fork = stemEndsFork(m);
+  const UsualAngles usual = usualAngles(m);
   std::vector<std::optional<SegmentId>> next(m.segments.size());
   for (std::size_t s = 0; s < m.segments.size(); ++s) {
     const Segment& segment = m.segments[s];
     next[s] = sameStem(m, segment);
     if (next[s] || segment.children.empty()) continue;
-    if (segment.children.size() == 1 || !fork) next[s] = byAngle(m, segment).front();
+    if (segment.children.size() == 1 ? onlyChildGoesOn(m, segment, usual) : !fork) next[s] = byAngle(m, segment).front();
   }
   return next;
 }

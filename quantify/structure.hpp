@@ -2,8 +2,8 @@
 /// \file
 /// The architecture of a measured plant: which segments make one *axis*, and what order, rank and end each has.
 ///
-/// An axis goes on along the stem that was clicked (or grown) as one; where a stem ends, an only child goes on, and of several
-/// the straightest, unless the plant forks there: on a plant whose stems end in children that lean alike (the median of least over
+/// An axis goes on along the stem that was clicked (or grown) as one; where a stem ends, an only child goes on (unless it leans like
+/// the plant's branches and not like its bends), and of several the straightest, unless the plant forks there: on a plant whose stems end in children that lean alike (the median of least over
 /// second angle is above a half) none goes on, each child begins an axis of the next order, and the axis is a sympodial module.
 /// *Order* is 0 for the axis of the root segment and one more at each insertion. *Rank* counts segments from the axis' base, from 0;
 /// `fromTip` counts them from its tip, from 0. A *node* is a segment's tip that carries a leaf, an axis or a fork; an

@@ -1,6 +1,7 @@
 #include "emit/structured.hpp"
 
-#include "grown.hpp"
+#include "generators.hpp"
+#include "quantify/structure.hpp"
 #include "support/cases.hpp"
 
 #include <filesystem>
@@ -42,17 +43,17 @@ TEST(StructuredGrammar, GrowsPlantsLikeTheMeasuredOne) {
   std::set<double> heights;
   double sum = 0;
   std::size_t count = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const simeco::Plant plant = grownUp(grammar, {.seed = seed});
-    std::size_t onTrunk = 0;
-    for (const simeco::Organ& organ : plant.organs) {
-      const bool trunk = plant.styleOf(organ).stage == 10;
-      onTrunk += trunk;
-      if (trunk) sum += organ.length, ++count;
+  for (const quantify::Measurements& plant : measuredFrom(grammar, 40, 1)) {
+    const quantify::PlantStructure structure = quantify::plantStructure(plant);
+    EXPECT_EQ(structure.axes.front().segments.size(), 5u);
+    EXPECT_EQ(plant.segments.size(), 5u + 4 * 2);
+    double height = 0;
+    for (const auto id : structure.axes.front().segments) {
+      sum += plant.at(id).length;
+      ++count;
+      height += plant.at(id).length * plant.at(id).direction.unit().y;
     }
-    EXPECT_EQ(onTrunk, 5u);
-    EXPECT_EQ(plant.organs.size(), 5u + 4 * 2);
-    heights.insert(plant.organs.back().tip().at.y);
+    heights.insert(height);
   }
   EXPECT_NEAR(sum / static_cast<double>(count), 0.1, 0.001);
   EXPECT_GT(heights.size(), 35u);
@@ -145,7 +146,7 @@ TEST(ExactGrammar, ThePublicPlantsTakeLessThanAThirdOfTheText) {
     SCOPED_TRACE(folder.filename().string());
     const test::PlantCase plant = test::readPlantCase(folder, {.radius = true});
     Skeleton skeleton;
-    for (std::size_t n = 0; n < plant.nodes.size(); ++n) skeleton.nodes.push_back({plant.nodes[n].id, plant.truth[n]});
+    for (std::size_t n = 0; n < plant.nodes.size(); ++n) skeleton.nodes.push_back({plant.nodes[n].id, plant.truth[n], std::nullopt, {0, 0, 0}, {}});
     std::map<NodeId, StemId> stemOf;
     for (const auto& stem : plant.stems) {
       const auto bearer = stemOf.find(stem.nodes.front());
