@@ -60,6 +60,16 @@ void sayTool(const Pane& pane) {
   pane.state().status = pane.panel.t(pane.state().tool == PhotoTool::Origin ? "click_origin" : second ? "click_length_to" : "click_length_from");
 }
 
+/// The centre line of the stem near `at`. Nothing where snapping is off or no stem is there.
+std::optional<skeleton3d::RidgeReading> ridgeNear(const Pane& pane, PhotoPoint at) {
+  constexpr double kReach_px = 10, kMost_px = 40;  // of the screen; of the photo, so that a snap keeps up with the mouse
+  if (!pane.state().snap || pane.photo == nullptr || !pane.photo->tiles) return std::nullopt;
+  return skeleton3d::snapClick(pane.photo->tiles->photo(), at, {.reach_px = std::clamp(kReach_px / pane.lens.frame.zoom, 2.0, kMost_px)});
+}
+
+/// Whether a click of this meaning puts a node somewhere.
+bool places(const ClickMeaning& meaning) { return meaning.kind != ClickKind::Nothing && meaning.kind != ClickKind::Select; }
+
 bool insidePhoto(const Pane& pane, PhotoPoint p) {
   return pane.photo != nullptr && p.px.x >= 0 && p.px.y >= 0 && p.px.x <= pane.photo->size_px.x && p.px.y <= pane.photo->size_px.y;
 }
@@ -155,8 +165,14 @@ Taken clicked(const Pane& pane, PhotoPoint at) {
     if (const auto node = nodeAt(pane.panel.project, clickAt(pane, at))) state.selection.has(*node) ? state.selection.remove(*node) : state.selection.add(*node);
     return std::nullopt;
   }
-  const ClickMeaning meaning = meaningHere(pane, at);
+  ClickMeaning meaning = meaningHere(pane, at);
   if (meaning.kind == ClickKind::Nothing) return std::nullopt;
+  if (places(meaning))
+    if (const auto ridge = ridgeNear(pane, at)) {
+      PhotoClick click = clickAt(pane, ridge->at);
+      click.picking = Picking::OnlyPlace;
+      meaning = meaningOf(pane.panel.project, state.selection, click);
+    }
   state.selection = meaning.after;
   return meaning.step.empty() ? Taken{} : Taken{meaning.step};
 }
@@ -271,7 +287,12 @@ Taken photoHand(Pane& pane) {
   if ((state.drag && state.drag->moved) || (state.band && state.band->points.size() > 1)) return std::nullopt;
   if (state.pick) sayPick(pane);
   else if (state.way == Way::Photos && state.tool != PhotoTool::None) sayTool(pane);
-  else sayWhat(pane, meaningHere(pane, at));
+  else {
+    const ClickMeaning meaning = meaningHere(pane, at);
+    sayWhat(pane, meaning);
+    if (places(meaning)) state.ridge = ridgeNear(pane, at);
+    if (state.ridge) state.status += filled(pane.panel.t("snaps"), {{"percent", std::to_string(std::lround(100 * state.ridge->confidence))}});
+  }
   return std::nullopt;
 }
 

@@ -182,7 +182,15 @@ void drawGhost(const Pane& pane) {
   if (!hover || hover->first != pane.name() || pane.state().way != Way::Stems || pane.state().drag) return;
   const ClickMeaning meaning = meaningHere(pane, hover->second);
   const Colour colour = meaning.stem ? colourOf(*meaning.stem) : meaning.kind == ClickKind::Branch ? colourOf(document::nextStemId(pane.panel.project)) : rgb(0xFFFFFF);
-  const ImVec2 mouse = pane.lens.onScreen(hover->second);
+  const auto& ridge = pane.state().ridge;
+  const ImVec2 mouse = pane.lens.onScreen(ridge ? ridge->at : hover->second);
+  if (ridge) {
+    const glm::dvec2 across = glm::dvec2(-std::sin(ridge->along.radians()), std::cos(ridge->along.radians())) * (ridge->width_px / 2);
+    for (const double side : {-1.0, 1.0}) {
+      const glm::dvec2 edge = ridge->at.px + side * across, half = glm::dvec2(across.y, -across.x) * 0.8;
+      pane.list.AddLine(pane.lens.onScreen({edge - half}), pane.lens.onScreen({edge + half}), rgb(0xFFFFFF, 200), pane.panel.px(1.2f));
+    }
+  }
   if (meaning.kind == ClickKind::Extend || meaning.kind == ClickKind::Branch)
     if (const auto from = seen(pane, *meaning.node)) dashed(pane.list, pane.lens.onScreen(from->at), mouse, colour, pane.panel.px(2), pane.panel.px(6));
   if (meaning.kind != ClickKind::Nothing && meaning.kind != ClickKind::Select) pane.list.AddCircle(mouse, pane.panel.px(4), colour, 16, pane.panel.px(1.6f));

@@ -40,6 +40,7 @@ class PhotoTiles {
   /// What covers the photo from `low` to `high` at `zoom` screen px a photo px, in the order to be drawn. Sends what is missing, at most
   /// kSentAFrame tiles a call of `beginFrame`.
   [[nodiscard]] std::vector<Piece> pieces(glm::dvec2 low, glm::dvec2 high, double zoom, PhotoLook look);
+  [[nodiscard]] const skeleton3d::Photo& photo() const { return levels_.front(); }
   void beginFrame() { toSend_ = kSentAFrame; }
   /// Something shown has still to be sent.
   [[nodiscard]] bool waiting() const { return waiting_; }

@@ -7,6 +7,7 @@
 #include "document/chain.hpp"
 #include "document/command.hpp"
 #include "simeco/environment.hpp"
+#include "skeleton3d/snap.hpp"
 #include "ui/clicking.hpp"
 #include "ui/preferences.hpp"
 #include "ui/texts.hpp"
@@ -182,6 +183,8 @@ struct UiState {
   std::map<std::string, PhotoLook> looks;                                       ///< of photos that are shown otherwise than they are
   std::optional<int> maximised;  ///< pane 0 to 3
   std::optional<std::pair<std::string, PhotoPoint>> hover;  ///< which photo the mouse is over, and where
+  bool snap = true;                                      ///< clicks go to the centre line of the stem they are near
+  std::optional<skeleton3d::RidgeReading> ridge;         ///< under the mouse, this frame
   bool loupe = false;
   bool shortcuts = false;
   bool history = false;

@@ -15,6 +15,7 @@ HeadlessStudio opened() {
   auto headless = HeadlessStudio::open({}, 1200, 800);
   EXPECT_TRUE(headless) << headless.error().message;
   if (auto open = headless->studio().open(kLantana); !open) ADD_FAILURE() << open.error().message;
+  headless->studio().state().snap = false;  // clicks are looked for where they were made
   return std::move(*headless);
 }
 
@@ -87,6 +88,18 @@ TEST(Hand, RightClickOnABareStemGivesItTheLeavesOfTheDescription) {
   EXPECT_NE(added.arrangement, "alternate") << "the description says opposite";
   run(headless, "ui menu front 250 800\n");
   EXPECT_EQ(headless.studio().session().project().leaves.size(), leaves + 1) << "a stem with leaves keeps those it has";
+}
+
+TEST(Hand, AClickBesideAStemGoesToItsCentreLineUnlessSnappingIsOff) {
+  HeadlessStudio headless = opened();
+  run(headless, "ui wait\nui key 1\nui key s\n");  // on
+  ASSERT_TRUE(headless.studio().state().snap);
+  // The trunk of the sample runs through (424.3, 924.7), between its first two nodes; the mouse is put 6 px beside it.
+  const glm::dvec2 a = clickOf(headless, 1, "front").px, b = clickOf(headless, 2, "front").px, middle = (a + b) / 2.0;
+  run(headless, "ui press stem_4\nui shift_click front " + std::to_string(middle.x + 6) + " " + std::to_string(middle.y) + "\n");
+  EXPECT_NEAR(clickOf(headless, 18, "front").px.x, middle.x, 1.5);
+  run(headless, "ui key ctrl+z\nui press stem_4\nui key s\nui shift_click front " + std::to_string(middle.x + 6) + " " + std::to_string(middle.y) + "\n");
+  EXPECT_NEAR(clickOf(headless, 18, "front").px.x, middle.x + 6, 2.5) << "the mouse stands on whole pixels of the screen";
 }
 
 TEST(Hand, ThePaletteDoesWhatItsNameSays) {

@@ -17,6 +17,7 @@ HeadlessStudio opened(const StudioOptions& options = {}) {
   auto headless = HeadlessStudio::open(options, 1200, 800);
   EXPECT_TRUE(headless) << headless.error().message;
   if (auto open = headless->studio().open(kLantana); !open) ADD_FAILURE() << open.error().message;
+  headless->studio().state().snap = false;  // clicks are looked for where they were made
   return std::move(*headless);
 }
 
