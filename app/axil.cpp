@@ -41,6 +41,7 @@ const Command kCommands[] = {
     {"keywords", "Read the traits of a botanical description", addKeywords, kLight},
     {"describe", "Write the grammar of a typical plant from its description alone", addDescribe, kMeasuring},
     {"skeleton", "Solve the 3D skeleton from the clicks of a project (prints skeleton.json)", addSkeleton, kMeasuring},
+    {"trace", "Draft the stems from masks of the plant, without a click (writes a project to correct)", addTrace, kMeasuring},
     {"calibrate", "Find a lens from photos of a chessboard (prints the camera of a project's views)", addCalibrate, kMeasuring},
     {"quantify", "Measure every segment: length, level, kind, turning angles (prints stems.csv)", addQuantify, kMeasuring},
     {"emit", "Write the grammar of a measured plant", addEmit, kMeasuring},

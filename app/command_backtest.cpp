@@ -63,8 +63,8 @@ void addBacktest(CLI::App& sub, int& status) {
   auto& command = onCall<BacktestCommand>(sub, status, run);
   addExamples(sub, "  axil backtest a.axil b.axil c.axil --plot skill.png         # cut the youngest stage off each, foretell it\n"
                    "  axil backtest may.json --later june.json --stages 3         # one plant, measured twice, three stages apart");
-  sub.add_option("plants", command.plants, "Projects (.axil) or skeleton files (.json), all of one kind")->required()->option_text("PLANT...");
-  sub.add_option("--later", command.later, "The same plants, measured later, in the same order; nothing is cut off then")->option_text("PLANT...");
+  sub.add_option("PLANT", command.plants, "Projects (.axil) or skeleton files (.json), all of one kind")->required()->option_text("...");
+  sub.add_option("--later", command.later, "The same plants, measured later, in the same order; nothing is cut off then")->option_text("...");
   sub.add_option("--stages", command.stages, "How many stages to cut off, or to foretell")->check(CLI::Range(1, 1000))->capture_default_str();
   sub.add_flag("--json", command.json, "As JSON, with every length and count");
   sub.add_option("--plot", command.plot, "Write a chart of it, PNG")->option_text("FILE.png");

@@ -16,9 +16,9 @@ struct DescribeCommand {
 };
 
 int run(const DescribeCommand& command) {
-  const auto grammar = describedGrammarIn(command.file);
-  if (!grammar) return report(grammar.error());
-  return print(simeco::print(*grammar));
+  const auto plant = describedPlantIn(command.file);
+  if (!plant) return report(plant.error());
+  return print(simeco::print(plant->grammar));
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ void addFitStatistics(CLI::App& sub, int& status) {
   auto& command = onCall<FitStatisticsCommand>(sub, status, run);
   addExamples(sub, "  axil fit-statistics plant.axil                     # structure and statistics by branching order\n"
                    "  axil fit-statistics a.axil b.axil grown.json --json   # of several plants of a kind, with every rank");
-  sub.add_option("plants", command.plants, "Projects (.axil) or skeleton files (.json), all of one kind")->required()->option_text("PLANT...");
+  sub.add_option("PLANT", command.plants, "Projects (.axil) or skeleton files (.json), all of one kind")->required()->option_text("...");
   sub.add_option("--plot", command.plot, "Write charts along the rank, PNG")->option_text("FILE.png");
   sub.add_flag("--json", command.json, "As JSON, with the layers of every rank");
 }

@@ -9,6 +9,7 @@
 #include "document/build.hpp"
 #include "document/skeleton_file.hpp"
 #include "render/render.hpp"
+#include "simeco/growth_attributes.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -129,11 +130,20 @@ Result<void> writeAnimation(const Growing& growing, const GrowCommand& command, 
   return render::writeAnimation(command.out, growing.at, animation, terminalWatch());
 }
 
+/// What stands in the picture beside the plant: what the grammar names, and what the options do.
+Result<std::vector<simeco::Obstacle>> obstaclesAround(const simeco::Grammar& grammar, const GrowCommand& command) {
+  auto obstacles = simeco::obstaclesIn(grammar);
+  if (obstacles) obstacles->insert(obstacles->end(), command.environment.obstacles.begin(), command.environment.obstacles.end());
+  return obstacles;
+}
+
 Result<void> grow(const simeco::Grammar& grammar, std::uint64_t seed, const GrowCommand& command) {
   const std::string ending = fs::path(command.out).extension().string();
   const auto growing = growingOf(grammar, seed, command);
   if (!growing) return growing.failure();
-  const render::PictureOptions picture{.width_px = command.width, .height_px = command.height, .view = kViews.at(command.view), .obstacles = command.environment.obstacles};
+  const auto obstacles = obstaclesAround(grammar, command);
+  if (!obstacles) return obstacles.failure();
+  const render::PictureOptions picture{.width_px = command.width, .height_px = command.height, .view = kViews.at(command.view), .obstacles = *obstacles};
   if (isAnimation(command, ending)) return writeAnimation(*growing, command, picture);
   const auto plant = growing->at(growing->endTime);
   if (!plant) return plant.failure();
@@ -158,9 +168,19 @@ Result<void> checkOut(const GrowCommand& command) {
   return fail(ErrorCode::BadInput, "cannot tell what to write from '" + command.out + "'; end it in .json, .glb, .obj, .ply, .png, .mp4 or .webm, or give --frames for a folder of pictures");
 }
 
-int run(const GrowCommand& command) {
+/// A description's plant is shown in flower where nothing else is asked for.
+Result<simeco::Grammar> grammarOf(GrowCommand& command) {
+  if (!isDescription(command.grammar)) return grammarIn(command.grammar);
+  auto plant = describedPlantIn(command.grammar);
+  if (!plant) return plant.failure();
+  if (!command.time && !command.steps) command.time = plant->inFlower;
+  return std::move(plant->grammar);
+}
+
+int run(const GrowCommand& asked) {
+  GrowCommand command = asked;
   if (const auto out = checkOut(command); !out) return report(out.error());
-  auto grammar = isDescription(command.grammar) ? describedGrammarIn(command.grammar) : grammarIn(command.grammar);
+  auto grammar = grammarOf(command);
   if (!grammar) return report(grammar.error());
   const auto plant = plantNamed(*grammar, command.plant);
   if (!plant) return report(plant.error());
@@ -176,12 +196,13 @@ int run(const GrowCommand& command) {
 void addGrow(CLI::App& sub, int& status) {
   auto& command = onCall<GrowCommand>(sub, status, run);
   addExamples(sub, "  axil grow plant.simeco -o plant.png\n  axil grow plant.simeco --time 12.5 -o young.png --view front\n"
+                   "  axil grow rose.txt -o rose.png                         # a plant from words alone, in flower\n"
                    "  axil grow plant.simeco --frames 120 -o growth.mp4      # or .webm, or a folder of PNGs\n"
                    "  axil grow plant.simeco -o plant.glb                    # or .obj, .ply, .json\n"
                    "  axil grow plant.simeco -o windy.png --wind 0.5,0,0 --temperature 15 --obstacle sphere:0.2,0.6,0,0.15");
-  addGrammar(sub, command.grammar);
+  sub.add_option("GRAMMAR", command.grammar, "A .simeco or .l file, or a description, .txt, of which a typical plant is grown")->required();
   sub.add_option("-o,--out", command.out, "Where to: its ending chooses .json .glb .obj .ply .png .mp4 .webm; with --frames also a folder")->required();
-  auto* time = sub.add_option("--time", command.time, "Moment of growth in the grammar's time; by default when all is grown")->check(notNegative());
+  auto* time = sub.add_option("--time", command.time, "Moment of growth in the grammar's time; by default when all is grown, for a description when it flowers")->check(notNegative());
   sub.add_option("--steps", command.steps, "Stop after this many derivation steps, then let what is there grow out")->check(notNegative())->excludes(time);
   addPlant(sub, command.plant, "all of them");
   addSeed(sub, command.seed);

@@ -39,6 +39,10 @@ int gallery(std::string out) {
 
 int run(const KeywordsCommand& command) {
   if (!command.gallery.empty()) return gallery(command.gallery);
+  if (command.file.empty()) {
+    std::cerr << "axil: error: FILE is required, or --gallery OUT.png; `axil keywords --help` says how it is called\n";
+    return 2;
+  }
   const auto bytes = textOf(command.file);
   if (!bytes) return report(bytes.error());
   const auto reading = keywords::readDescription(*bytes);
@@ -55,7 +59,6 @@ void addKeywords(CLI::App& sub, int& status) {
   auto* file = sub.add_option("FILE", command.file, "A description in English or Chinese (UTF-8, UTF-16, Big5 or GB18030); - reads standard input");
   auto* sheet = sub.add_option("--gallery", command.gallery, "Draw a contact sheet of all shapes that words can name into this PNG; no FILE is read");
   sheet->excludes(file);
-  sub.require_option(1, 0);
   sub.add_flag("--json", command.json, "Print JSON: every trait with its words and their place, and the presets they set");
 }
 

@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 struct SkeletonCommand {
   std::string project;
   std::string report;  ///< a folder; empty: none
+  bool snap = false;
 };
 
 /// One picture a view, residuals_NAME.png, and report.txt.
@@ -51,7 +52,7 @@ void say(const document::Measured& clicks) {
 int run(const SkeletonCommand& command) {
   const auto open = document::loadProject(command.project);
   if (!open) return report(open.error());
-  const document::ChainOptions options{.watch = terminalWatch()};
+  const document::ChainOptions options{.watch = terminalWatch(), .snap = command.snap ? document::Snap::On : document::Snap::Off};
   const auto clicks = document::measured(*open, options);
   if (!clicks) return report(clicks.error());
   const auto skeleton = document::skeletonOf(open->project, *clicks, options);
@@ -66,8 +67,9 @@ int run(const SkeletonCommand& command) {
 
 void addSkeleton(CLI::App& sub, int& status) {
   auto& command = onCall<SkeletonCommand>(sub, status, run);
-  addExamples(sub, "  axil skeleton plant.axil > skeleton.json\n  axil skeleton plant.axil --report report > skeleton.json   # and how well every click fits");
+  addExamples(sub, "  axil skeleton plant.axil > skeleton.json\n  axil skeleton plant.axil --snap > skeleton.json             # clicks go to the stems' centre lines, widths are measured\n  axil skeleton plant.axil --report report > skeleton.json   # and how well every click fits");
   addProject(sub, command.project);
+  sub.add_flag("--snap", command.snap, "Move each click across its stem to the centre line seen in the photo, and measure the stems' widths");
   sub.add_option("--report", command.report, "Also write into this folder: report.txt, and per view the misses of all clicks drawn over the photo")->option_text("FOLDER");
 }
 

@@ -18,7 +18,7 @@ namespace axil::app {
 using AddCommand = void(CLI::App& sub, int& status);
 
 // Weak: a command that needs heavy libraries is linked only into the program that has them (docs/decisions/start.md).
-[[gnu::weak]] AddCommand addKeywords, addSkeleton, addCalibrate, addQuantify, addEmit, addCheck, addFmt, addDerive, addFitStatistics, addCompare, addBacktest, addGrow, addBuild, addCompletion, addDescribe;
+[[gnu::weak]] AddCommand addKeywords, addSkeleton, addTrace, addCalibrate, addQuantify, addEmit, addCheck, addFmt, addDerive, addFitStatistics, addCompare, addBacktest, addGrow, addBuild, addCompletion, addDescribe;
 /// Draws the contact sheet of `axil keywords --gallery`.
 [[gnu::weak]] int drawShapeGallery(const std::string& out);
 

@@ -1,7 +1,6 @@
 #include "app/described_grammar.hpp"
 
 #include "base/files.hpp"
-#include "emit/described.hpp"
 #include "keywords/keywords.hpp"
 
 #include <filesystem>
@@ -24,7 +23,7 @@ Result<std::string> textIn(const std::string& file) {
 
 bool isDescription(const std::string& file) { return file.ends_with(".txt"); }
 
-Result<simeco::Grammar> describedGrammarIn(const std::string& file) {
+Result<emit::DescribedPlant> describedPlantIn(const std::string& file) {
   const auto bytes = textIn(file);
   if (!bytes) return bytes.failure();
   const auto named = [&](const Error& error) { return fail(Error{error.code, (file == "-" ? "standard input" : file) + ": " + error.message, error.details}); };
@@ -33,9 +32,9 @@ Result<simeco::Grammar> describedGrammarIn(const std::string& file) {
   const auto traits = keywords::readTraits(text->utf8);
   if (!traits) return named(traits.error());
   const std::string stem = std::filesystem::path(file).stem().string();
-  const auto grammar = emit::describedGrammar(*traits, {.name = file == "-" || stem.empty() ? "plant" : stem});
-  if (!grammar) return named(grammar.error());
-  return *grammar;
+  auto plant = emit::describedPlant(*traits, {.name = file == "-" || stem.empty() ? "plant" : stem});
+  if (!plant) return named(plant.error());
+  return plant;
 }
 
 }  // namespace axil::app

@@ -3,7 +3,7 @@
 /// A description's file as the grammar of a typical plant.
 
 #include "base/result.hpp"
-#include "simeco/grammar.hpp"
+#include "emit/described.hpp"
 
 #include <string>
 
@@ -13,6 +13,6 @@ namespace axil::app {
 [[nodiscard]] bool isDescription(const std::string& file);
 
 /// Reads `file` ("-": standard input) and writes the grammar of what it describes, named after the file.
-[[nodiscard]] Result<simeco::Grammar> describedGrammarIn(const std::string& file);
+[[nodiscard]] Result<emit::DescribedPlant> describedPlantIn(const std::string& file);
 
 }  // namespace axil::app

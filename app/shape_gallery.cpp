@@ -11,6 +11,8 @@
 #include "simeco/simeco.hpp"
 
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace axil::app {
@@ -21,19 +23,28 @@ using organs::LeafFeature;
 using render::GalleryCell;
 using render::GallerySection;
 
-/// The first Traditional Chinese word of a concept; empty where the vocabulary has none.
+/// Shapes that are no concept of the vocabulary: nothing that one says of a plant, only how it is drawn.
+constexpr std::pair<std::string_view, std::string_view> drawnNames[] = {
+    {"five-petalled", "五瓣花"}, {"four-petalled", "四瓣花"}, {"six-petalled", "六瓣花"}, {"three-petalled", "三瓣花"}, {"stellate", "星形"},
+    {"rose", "重瓣花"}, {"head", "頭狀花"}, {"ligulate head", "舌狀頭花"}, {"urceolate", "壺形"}, {"floret", "小花"},
+    {"compound umbel", "複繖形花序"}, {"amplexicaul", "抱莖"}, {"perfoliate", "穿莖"}, {"palmatifid", "掌狀中裂"}, {"palmatipartite", "掌狀深裂"}, {"palmatisect", "掌狀全裂"},
+    {"pinnatifid", "羽狀中裂"}, {"pinnatipartite", "羽狀深裂"}, {"pinnatisect", "羽狀全裂"}, {"runcinate", "倒向羽裂"}, {"obcordate", "倒心形"}, {"subcordate", "淺心形"}};
+
+/// The first Traditional Chinese word of a concept; empty where there is none.
 std::string chineseOf(std::initializer_list<const char*> properties, const std::string& name) {
   for (const char* property : properties)
     for (const keywords::Category& category : keywords::vocabulary())
       if (category.property == property)
         for (const keywords::Concept& entry : category.concepts)
           if (entry.name == name && !entry.traditional.empty()) return entry.traditional.front().words;
+  for (const auto& [shape, words] : drawnNames)
+    if (shape == name) return std::string(words);
   return {};
 }
 
 GallerySection leafShapes() {
   GallerySection section{"Leaf shapes", "葉形", {}};
-  for (const organs::LeafShape& shape : organs::leafShapes()) section.cells.push_back({shape.name, chineseOf({"shape"}, shape.name), render::FlatLeaf{shape}});
+  for (const organs::LeafShape& shape : organs::leafShapes()) section.cells.push_back({shape.name, chineseOf({"shape"}, shape.name), render::FlatLeaf{shape, -0.3 - shape.shield}});
   return section;
 }
 
@@ -63,7 +74,7 @@ GallerySection compoundLeaves() {
     const auto type = *organs::leafTypeNamed(name);
     const char* leaflet = type == organs::LeafType::EvenPinnate || type == organs::LeafType::Bipinnate ? "oblong" : type == organs::LeafType::Palmate ? "obovate" : "ovate";
     const organs::CompoundLeaf leaf{.type = type, .leaflet = *organs::leafShapeNamed(leaflet)};
-    section.cells.push_back({name, chineseOf({"type"}, name), render::meshOfParts(organs::compoundParts(leaf, organs::Detail::Close), "flat " + name)});
+    section.cells.push_back({name, chineseOf({"type"}, name), render::meshOfParts(organs::compoundParts(leaf, organs::Detail::Close), name), render::ViewPreset::Front});
   }
   return section;
 }
@@ -77,12 +88,12 @@ Result<render::PlantMesh> grownMesh(const Result<simeco::Grammar>& grammar) {
   return render::meshOf(*plant, {.detail = organs::Detail::Close});
 }
 
-Result<GallerySection> arrangements() {
-  GallerySection section{"Arrangement of leaves", "葉序", {}};
+Result<GallerySection> arrangements(const char* english, const char* chinese, render::ViewPreset view) {
+  GallerySection section{english, chinese, {}};
   for (const std::string& name : keywords::arrangementNames()) {
     auto mesh = grownMesh(emit::arrangementGrammar(*keywords::arrangementNamed(name)));
     if (!mesh) return mesh.failure();
-    section.cells.push_back({name, chineseOf({"arrangement"}, name), std::move(*mesh)});
+    section.cells.push_back({name, chineseOf({"arrangement"}, name), std::move(*mesh), view});
   }
   return section;
 }
@@ -131,11 +142,14 @@ Result<std::vector<GallerySection>> sections() {
                                   featureSection("Bases", "葉基", LeafFeature::Base, "base", "elliptic", 0.62, -0.6, 0.5),
                                   featureSection("Margins", "葉緣", LeafFeature::Margin, "margin", "ovate", 0.6, -0.3, 1.2),
                                   venations(), compoundLeaves()};
-  auto stems = arrangements();
+  auto stems = arrangements("Arrangement of leaves", "葉序", render::ViewPreset::ThreeQuarter);
   if (!stems) return stems.failure();
+  auto above = arrangements("The same from above", "葉序俯視", render::ViewPreset::Top);
+  if (!above) return above.failure();
   auto flowering = inflorescences();
   if (!flowering) return flowering.failure();
   all.push_back(std::move(*stems));
+  all.push_back(std::move(*above));
   all.push_back(flowers());
   all.push_back(std::move(*flowering));
   all.push_back(fruits());

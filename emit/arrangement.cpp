@@ -10,8 +10,8 @@
 namespace axil::emit {
 
 Result<simeco::Grammar> arrangementGrammar(const keywords::ArrangementPreset& arrangement) {
-  constexpr int nodes = 8;
-  constexpr double internode_m = 0.03, leaf_m = 0.055;
+  constexpr int nodes = 6;
+  constexpr double internode_m = 0.03, leaf_m = 0.06;
   std::vector<double> turns;
   for (const Angle& angle : arrangement.cycle) turns.push_back(angle.radians());
   if (turns.empty()) turns.push_back(arrangement.divergence.radians());
@@ -20,7 +20,7 @@ Result<simeco::Grammar> arrangementGrammar(const keywords::ArrangementPreset& ar
   const bool onStalk = arrangement.clustered && arrangement.name != "rosette";
   plant.stems = stemStage(1, "", num(arrangement.clustered ? 0.0008 : internode_m), 0.0016, 1, "");
   if (onStalk) plant.stems += stemStage(2, "", "0.04", 0.0016, 1, "");
-  plant.leaves = leafStage(1, "elliptic, width 36", leaf_m, 1, glm::dvec3{0.24, 0.46, 0.15});
+  plant.leaves = leafStage(1, "elliptic, width 46", leaf_m, 1, glm::dvec3{0.24, 0.46, 0.15});
   plant.axiom = onStalk ? "S(2) A(0)" : "A(0)";
   const int count = std::clamp(arrangement.leavesPerNode, 1, 24);
   for (int n = 0; n < (arrangement.clustered ? std::max(nodes, 12) : nodes); ++n) {

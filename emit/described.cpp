@@ -37,8 +37,9 @@ struct Habit {
   double branching;     ///< chance that a node above it branches
   double branchAngle;
   double thickness;     ///< radius of the stem's foot to its height
+  int crown = 0;        ///< nodes that a branch has more than what is left of its parent's count
 };
-constexpr Habit kTree{"tree", 8, 3.2, 0.12, 1, 17, 2, 0.30, 0.85, 0.85, 0.0075};
+constexpr Habit kTree{"tree", 8, 3.2, 0.12, 1, 17, 2, 0.30, 0.95, 0.80, 0.0075, 4};
 constexpr Habit kShrub{"shrub", 1.5, 1.8, 0.06, 4, 13, 2, 0.15, 0.50, 0.72, 0.0048};
 constexpr Habit kSubshrub{"subshrub", 0.6, 0.9, 0.05, 5, 9, 1, 0.10, 0.40, 0.62, 0.005};
 constexpr Habit kHerb{"herb", 0.4, 1.0, 0.06, 3, 8, 1, 0.15, 0.35, 0.65, 0.0055};
@@ -63,7 +64,6 @@ struct Design {
   bool flowers = false;
   bool axillary = false, terminal = true;
   InflorescencePlan inflorescence;
-  std::string fruitModel;
 };
 
 std::string cm(double metres) { return num(std::round(metres * 1000) / 10) + " cm"; }
@@ -187,16 +187,36 @@ class Designer {
     const bool terminal = flower.position == "terminal" || says("", "position", "terminal");
     design_.axillary = axillary;
     design_.terminal = terminal || !axillary;
+    setFruit(plan);
     note("Flowers " + cm(plan.flowerLength) + " long, model \"" + plan.flowerModel + "\", " + (flower.inflorescence.empty() ? std::string("alone: the text names no inflorescence") : flower.inflorescence + words("flower.inflorescence")) +
          (design_.axillary ? (design_.terminal ? ", terminal and axillary." : ", axillary.") : ", terminal."));
   }
 
-  /// A flower's model is one unit long: tube and petal.
+  /// Fruits follow the flowers where the text names them.
+  void setFruit(InflorescencePlan& plan) {
+    const keywords::FruitPreset& fruit = presets_.fruit;
+    plan.fruit.model = keywords::fruitModelOf(presets_);
+    if (plan.fruit.model.empty()) return;
+    const double widthToLength = organs::fruitModelNamed(plan.fruit.model).shape.widthToLength;
+    const double usual = std::clamp(0.8 * plan.flowerWidth, 0.003, 0.06);
+    const double length = fruit.length_m ? fruit.length_m->middle() : fruit.diameter_m ? fruit.diameter_m->middle() / std::max(widthToLength, 0.05) : usual;
+    plan.fruit.length = std::clamp(length, 0.0005, 0.8);
+    plan.fruit.width = plan.fruit.length * widthToLength;
+    const auto colours = keywords::fruitColours(traits_);
+    if (!colours.empty()) plan.fruit.colour = colours.front();
+    note("Fruits " + cm(plan.fruit.length) + " long, model \"" + plan.fruit.model + "\"" + words("fruit.type") + ", when the flowers are over.");
+  }
+
+  /// A flower's model is one unit long: tube and petal. Where the text says how long the tube and how wide the flower is, both hold.
   void setFlowerSize(InflorescencePlan& plan) const {
-    const organs::FlowerShape shape = organs::flowerModelNamed(plan.flowerModel).shape;
     const keywords::FlowerPreset& flower = presets_.flower;
+    if (flower.diameter_m && flower.tubeLength_m && flower.tubeLength_m->middle() > 0 && organs::flowerModelNamed(plan.flowerModel).shape.tube > 0.2) {
+      const double share = flower.tubeLength_m->middle() / (flower.tubeLength_m->middle() + 0.5 * flower.diameter_m->middle());
+      plan.flowerModel += ", tube " + std::to_string(static_cast<int>(std::lround(100 * std::clamp(share, 0.2, 0.9))));
+    }
+    const organs::FlowerShape shape = organs::flowerModelNamed(plan.flowerModel).shape;
     const double petal = 1 - shape.tube;
-    const double reach = std::max(0.15, petal * std::sin(std::min(shape.spread_deg, 90.0) * kPi / 180) + shape.mouthRadius);
+    const double reach = std::max(0.1, petal * std::sin(std::min(shape.spread_deg, 90.0) * kPi / 180) + shape.mouthRadius);
     double length = 0.4 * design_.leaf_m;
     if (flower.diameter_m) length = 0.5 * flower.diameter_m->middle() / reach;
     else if (flower.tubeLength_m && shape.tube > 0.2) length = flower.tubeLength_m->middle() / shape.tube;
@@ -218,49 +238,69 @@ class DesignWriter {
 
   PlantText written(const std::string& name) {
     text_.name = name;
-    text_.heading = d_.heading;
     if (d_.flowers) addInflorescence();
+    text_.heading = d_.heading + moments();
     addStages();
     addStart();
     const int orders = d_.branched && !d_.rosette ? d_.habit.orders : 0;
     for (int order = 0; order <= orders; ++order) addAxis(order, order < orders);
     text_.axiom = "A(0)";
-    text_.steps = d_.nodes + 3 + inflorescence_.steps + growTime();
+    text_.steps = inFlower() + inflorescence_.ripening;
     return std::move(text_);
   }
+
+  /// When the youngest flowers are open.
+  [[nodiscard]] int inFlower() const { return d_.nodes + 3 + d_.habit.crown * d_.habit.orders + inflorescence_.steps + growTime(); }
 
  private:
   static constexpr int kInflorescenceApex = 20, kInflorescenceStage = 40, kPetiole = 30, kScape = 31;
   [[nodiscard]] int growTime() const { return 4; }
   [[nodiscard]] static std::string apex(int order, const std::string& n) { return "A(" + std::to_string(1 + order) + ", " + n + ")"; }
+  [[nodiscard]] std::string moments() const {
+    if (!d_.flowers) return {};
+    return "// In flower at time " + std::to_string(inFlower()) + (inflorescence_.ripening > 0 ? ", in fruit at time " + std::to_string(inFlower() + inflorescence_.ripening) : "") + ".\n";
+  }
   void rule(const std::string& words) { text_.rules += "            " + words + " ;\n"; }
+  /// Internodes that a branch of a crown makes in a step: shorter ones than the trunk's, with more leaves.
+  [[nodiscard]] int internodesAtOnce(int order) const { return d_.habit.crown > 0 && order > 0 ? 2 : 1; }
   /// Nodes of an axis that starts with the plant; axes that start later have as many less.
   [[nodiscard]] int nodesOf(int order) const { return std::max(2, static_cast<int>(std::lround(d_.nodes * (order == 0 ? 1 : order == 1 ? 0.9 : 0.8)))); }
   [[nodiscard]] bool flowersIn(int order) const { return d_.flowers && (d_.terminal || order >= 0); }
 
   void addInflorescence() {
-    inflorescence_ = inflorescenceText(d_.inflorescence, kInflorescenceApex, kInflorescenceStage);
+    InflorescencePlan plan = d_.inflorescence;
+    // The first flowers, half way up the plant, are just over when the last ones open.
+    plan.fruit.bloom = inflorescenceText(plan, kInflorescenceApex, kInflorescenceStage).steps + growTime() + 4 * d_.nodes / 10 + d_.habit.crown * d_.habit.orders;
+    inflorescence_ = inflorescenceText(plan, kInflorescenceApex, kInflorescenceStage);
     text_.flowers += inflorescence_.flowerStages;
+    text_.fruits += inflorescence_.fruitStages;
     text_.leaves += inflorescence_.leafStages;
     text_.decomposition += inflorescence_.decomposition;
+  }
+
+  /// Trunks and boughs of woody plants are brown, what is young is green.
+  [[nodiscard]] glm::dvec3 stemColour(int order) const {
+    const glm::dvec3 green{0.36, 0.45, 0.22}, brown{0.40, 0.33, 0.24};
+    const double wood = d_.habit.name == kTree.name ? 1 - 0.35 * order : d_.habit.name == kShrub.name ? 0.5 - 0.25 * order : 0;
+    return green + (brown - green) * std::max(0.0, wood);
   }
 
   void addStages() {
     const double foot = d_.habit.thickness * d_.height_m;
     for (int order = 0; order <= (d_.branched && !d_.rosette ? d_.habit.orders : 0); ++order) {
       const double radius = foot * std::pow(0.62, order);
-      const double length = d_.internode_m * std::pow(0.85, order);
+      const double length = d_.internode_m * std::pow(0.85, order) / internodesAtOnce(order);
       std::string more = "BroadenTime = " + std::to_string(d_.nodes + 4) + "; ";
       if (d_.creeps) more += "GravityTropism = 0.25; ";
       else if (d_.hangs && order > 0) more += "GravityTropism = 0.35; ";
       else if (order > 0) more += "GravityTropism = -0.07; ";
       // As thick as its age: at BroadenTime it has the radius of a foot.
-      text_.stems += stemStage(1 + order, "", num(length) + "*random(0.9, 1.1)", radius * 4 / (d_.nodes + 4), growTime(), more);
+      text_.stems += stemStage(1 + order, "", num(length) + "*random(0.9, 1.1)", radius * 4 / (d_.nodes + 4), growTime(), more, stemColour(order));
     }
     if (d_.petiole_m > 0) text_.stems += stemStage(kPetiole, "", num(d_.petiole_m), std::clamp(0.012 * d_.leaf_m, 0.0003, 0.004), growTime(), "");
     if (d_.rosette && d_.flowers) text_.stems += stemStage(kScape, "", num(0.12 * std::max(d_.height_m, d_.leaf_m)), 0.012 * d_.leaf_m + 0.0005, growTime(), "");
     text_.stems += inflorescence_.stemStages;
-    const std::string old = d_.habit.name == kTree.name ? "FallAge = " + std::to_string(4 * d_.nodes / 5 + 6 + inflorescence_.steps) + "+random(0, 3); " : "";
+    const std::string old = d_.habit.name == kTree.name ? "FallAge = " + std::to_string(4 * d_.nodes / 5 + 6 + inflorescence_.steps + inflorescence_.ripening) + "+random(0, 3); " : "";
     text_.leaves += leafStage(1, d_.leafModel, d_.leaf_m, growTime(), d_.leafColour.value_or(glm::dvec3{0.24, 0.46, 0.15}), old);
     text_.rules += inflorescence_.rules;
   }
@@ -295,7 +335,9 @@ class DesignWriter {
 
   void addAxis(int order, bool branches) {
     const int nodes = nodesOf(order);
-    const std::string limit = std::to_string(nodes), body = "S(" + std::to_string(1 + order) + ") ";
+    std::string body = "S(" + std::to_string(1 + order) + ") ";
+    if (internodesAtOnce(order) == 2) body += leaves("") + toNextNode() + body;
+    const std::string limit = std::to_string(nodes);
     const int bare = order == 0 ? static_cast<int>(std::lround(d_.habit.firstBranch * nodes)) : 0;
     const std::string on = toNextNode() + apex(order, "n+1");
     const bool axillary = d_.flowers && d_.axillary;
@@ -307,7 +349,8 @@ class DesignWriter {
     }
     if (branches) {
       const int until = axillary ? flowering : nodes - 2;
-      const std::string branch = "[rotr(normal(" + num(d_.habit.branchAngle) + ", 0.1))rotu(random(0.2, 1.2))" + apex(order + 1, "n+1") + "] ";
+      const std::string first = d_.habit.crown == 0 ? "n+1" : "n+1-" + std::to_string(d_.habit.crown);
+      const std::string branch = "[rotr(normal(" + num(d_.habit.branchAngle) + ", 0.1))rotu(random(0.2, 1.2))" + apex(order + 1, first) + "] ";
       const std::string pair = d_.leavesPerNode == 2 ? "[rotr(normal(" + num(d_.habit.branchAngle) + ", 0.1))rotu(3.141593+random(0.2, 1.2))" + apex(order + 1, "n+2") + "] " : "";
       const double chance = d_.habit.branching * (order == 0 ? 1 : 0.7);
       if (until > bare)
@@ -328,10 +371,20 @@ class DesignWriter {
 
 }  // namespace
 
-Result<simeco::Grammar> describedGrammar(const Traits& traits, const DescribedOptions& options) {
+Result<DescribedPlant> describedPlant(const Traits& traits, const DescribedOptions& options) {
   if (traits.empty()) return fail(ErrorCode::NoAnswer, "the description names no trait of a plant; say how its leaves, stems or flowers look");
   const Presets presets = keywords::withGroups(traits, keywords::presetsOf(traits));
-  return grammarOf(DesignWriter(Designer(traits, presets).designed()).written(options.name));
+  const Design design = Designer(traits, presets).designed();
+  DesignWriter writer(design);
+  auto grammar = grammarOf(writer.written(options.name));
+  if (!grammar) return grammar.failure();
+  return DescribedPlant{std::move(*grammar), static_cast<double>(writer.inFlower())};
+}
+
+Result<simeco::Grammar> describedGrammar(const Traits& traits, const DescribedOptions& options) {
+  auto plant = describedPlant(traits, options);
+  if (!plant) return plant.failure();
+  return std::move(plant->grammar);
 }
 
 }  // namespace axil::emit

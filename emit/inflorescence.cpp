@@ -63,17 +63,24 @@ class Writer {
 
   InflorescenceText written() {
     writeType();
+    if (!plan_.fruit.model.empty()) writeFruit();
     writeStages();
     return std::move(out_);
   }
 
  private:
+  static constexpr int kFruitApex = 5, kFruitGrowTime = 4;
+
   // ---- words
   [[nodiscard]] std::string a(int kind) const { return "A(" + std::to_string(apex_ + kind) + ")"; }
   [[nodiscard]] std::string a(int kind, const std::string& argument) const { return "A(" + std::to_string(apex_ + kind) + ", " + argument + ")"; }
   [[nodiscard]] std::string s(int stage) const { return "S(" + std::to_string(stage) + ")"; }
   [[nodiscard]] std::string s(int stage, const std::string& length) const { return "S(" + std::to_string(stage) + ", " + length + ")"; }
-  [[nodiscard]] static std::string flower(int ring = 0) { return "W(" + std::to_string(1 + ring) + ")"; }
+  /// A flower; where fruits are set, beside a counter that becomes one when the flower is over.
+  [[nodiscard]] std::string flower(int ring = 0) const {
+    const std::string open = "W(" + std::to_string(1 + ring) + ")";
+    return plan_.fruit.model.empty() ? open : "[" + open + "] " + a(kFruitApex, std::to_string(plan_.fruit.bloom));
+  }
   [[nodiscard]] std::size_t rings() const { return std::clamp<std::size_t>(plan_.colours.size(), 1, 4); }
   void rule(const std::string& text) { out_.rules += "            " + text + " ;\n"; }
   void atOnce(const std::string& text) { out_.decomposition += "                " + text + " ;\n"; }
@@ -93,7 +100,7 @@ class Writer {
   void writeType() {
     switch (plan_.type) {
       case Type::Solitary: return solitary();
-      case Type::Raceme: return raceme(0.9 * reach_, 1.0);
+      case Type::Raceme: return raceme(1.3 * reach_, 1.0);
       case Type::Spike: return raceme(0, 0.9);
       case Type::Panicle: return panicle();
       case Type::Corymb: return corymb();
@@ -117,7 +124,7 @@ class Writer {
   void raceme(double pedicel, double lean) {
     // A length without a count: as many flowers as stand close along it.
     if (plan_.length > 0 && plan_.flowers == 0) flowers_ = std::clamp(static_cast<int>(std::lround(plan_.length / ((pedicel > 0 ? 0.4 : 0.3) * reach_))), 6, 80);
-    const double spacing = lengthOr(flowers_ * (pedicel > 0 ? 0.55 : 0.33) * reach_) / flowers_;
+    const double spacing = lengthOr(flowers_ * (pedicel > 0 ? 0.7 : 0.33) * reach_) / flowers_;
     stalkLength_ = 4 * spacing + reach_;
     axisLength_ = spacing;
     pedicelLength_ = pedicel;
@@ -148,8 +155,8 @@ class Writer {
 
   /// Stalks from different heights that end at one height; the farther out the longer.
   void corymb() {
-    const double across = lengthOr(2 * 0.62 * plan_.flowerWidth * std::sqrt(static_cast<double>(flowers_)));
-    const double height = 0.5 * across;
+    const double across = lengthOr(1.02 * plan_.flowerWidth * std::sqrt(static_cast<double>(flowers_)));
+    const double height = 0.42 * across;
     stalkLength_ = 1.5 * reach_;
     axisLength_ = 0.35 * height / flowers_;
     pedicelLength_ = height;
@@ -240,7 +247,7 @@ class Writer {
     axisLength_ = length / (flowers_ / 5.0);
     axisIsThick_ = true;
     spatheLength_ = 1.75 * length;
-    rule(a(0) + " -> " + s(stalk_) + " [rotr(0.22)rotu(-0.8)L(" + std::to_string(stalk_) + ")] " + a(1, "0"));
+    rule(a(0) + " -> " + s(stalk_) + " [rotr(0.3)rotu(-2.356194)L(" + std::to_string(stalk_) + ")] " + a(1, "0"));
     std::string whorl;
     for (int k = 0; k < 5; ++k) whorl += "[rotr(1.45)rotu(" + num(2 * 3.14159265 * k / 5) + ")" + flower() + "] ";
     rule(a(1, "i") + " : i < " + std::to_string(flowers_ / 5) + " -> " + s(axis_) + " " + whorl + "rotr(0)rotu(0.628319)" + a(1, "i+1"));
@@ -253,6 +260,17 @@ class Writer {
     rule(a(0) + " -> " + s(stalk_) + " " + a(1, "0"));
     ringRules(1, "[rotr(0.9*sqrt((i+0.5)/" + std::to_string(flowers_) + "))rotu(2.399963*i)" + s(pedicel_, num(pedicelLength_)) + " ", "] " + a(1, "i+1"), flowers_);
     out_.steps = 2;
+  }
+
+  /// As many flowers of a crowded inflorescence set fruit as its fruits have room.
+  void writeFruit() {
+    const FruitPlan& fruit = plan_.fruit;
+    const double room = plan_.type == Type::Solitary ? 1 : std::clamp(plan_.flowerWidth / std::max(fruit.width, 0.35 * fruit.length), 0.1, 1.0);
+    rule(a(kFruitApex, "k") + " : k > 0 -> " + a(kFruitApex, "k-1"));
+    rule(a(kFruitApex, "k") + " -> " + (room < 1 ? num(room) + ": F(1) | " + num(1 - room) + ": S(0)" : "F(1)"));
+    const bool pod = fruit.length > 3 * fruit.width;
+    out_.fruitStages = leafStage(1, fruit.model, fruit.length, kFruitGrowTime, fruit.colour, pod ? "GravityTropism = 0.6; " : "");
+    out_.ripening = fruit.bloom + 1 + kFruitGrowTime;
   }
 
   // ---- stages
@@ -271,9 +289,10 @@ class Writer {
     if (uses(pedicel_)) out_.stemStages += stemStage(pedicel_, "(length)", "length", 0.8 * thick, 3, "");
     if (uses(rod_)) out_.stemStages += stemStage(rod_, "", num(sideLength_ > 0 ? sideLength_ : axisLength_), thick, 3, "");
     if (spatheLength_ > 0)
-      out_.leafStages += leafStage(stalk_, "ovate, apex cuspidate, base rounded, width 62, veins arcuate", spatheLength_, 3, glm::dvec3{0.93, 0.93, 0.88});
+      out_.leafStages += leafStage(stalk_, "ovate, apex cuspidate, base rounded, width 80, veins arcuate", spatheLength_, 3, glm::dvec3{0.78, 0.86, 0.55});
     for (std::size_t ring = 0; ring < rings(); ++ring)
-      out_.flowerStages += flowerStage(static_cast<int>(ring) + 1, plan_.flowerModel, plan_.flowerLength, 3, ring < plan_.colours.size() ? std::optional(plan_.colours[ring]) : std::nullopt);
+      out_.flowerStages += flowerStage(static_cast<int>(ring) + 1, plan_.flowerModel, plan_.flowerLength, 3, ring < plan_.colours.size() ? std::optional(plan_.colours[ring]) : std::nullopt,
+                                       plan_.fruit.model.empty() ? "" : "FallAge = " + std::to_string(plan_.fruit.bloom + 1) + "; ");
   }
 
   const InflorescencePlan& plan_;
@@ -307,6 +326,7 @@ Result<simeco::Grammar> inflorescenceGrammar(const InflorescencePlan& plan) {
   plant.stems = text.stemStages;
   plant.leaves = text.leafStages;
   plant.flowers = text.flowerStages;
+  plant.fruits = text.fruitStages;
   plant.axiom = "A(10)";
   plant.rules = text.rules;
   plant.decomposition = text.decomposition;

@@ -24,6 +24,15 @@ enum class InflorescenceType { Solitary, Raceme, Spike, Panicle, Corymb, Umbel, 
 /// The words, one a type, in the order of the types.
 [[nodiscard]] std::vector<std::string> inflorescenceNames();
 
+/// What a flower becomes when it is over.
+struct FruitPlan {
+  std::string model;                      ///< empty: it sets no fruit
+  double length = 0.01;                   ///< along the stalk
+  double width = 0.01;
+  std::optional<glm::dvec3> colour;       ///< sRGB
+  int bloom = 6;                          ///< steps that a flower lasts
+};
+
 struct InflorescencePlan {
   InflorescenceType type = InflorescenceType::Solitary;
   int flowers = 0;                        ///< 0: as many as is usual for the type
@@ -31,6 +40,7 @@ struct InflorescencePlan {
   double flowerLength = 0.02;             ///< of one flower along its axis and a petal
   double flowerWidth = 0.02;              ///< across
   std::string flowerModel = "five-petalled";
+  FruitPlan fruit = {};
   std::vector<glm::dvec3> colours;        ///< sRGB; heads and umbels carry several from the outside inwards, others the first
 };
 
@@ -39,9 +49,11 @@ struct InflorescenceText {
   std::string stemStages;
   std::string leafStages;
   std::string flowerStages;
+  std::string fruitStages;
   std::string rules;
   std::string decomposition;  ///< rules that run within a step: what stands at one place appears at once
   int steps = 1;              ///< derivation steps from its apex to its last flower
+  int ripening = 0;           ///< further steps until all its fruits are ripe; 0 without any
 };
 [[nodiscard]] InflorescenceText inflorescenceText(const InflorescencePlan& plan, int firstApex, int firstStage);
 

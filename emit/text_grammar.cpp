@@ -44,10 +44,10 @@ std::string num(double value) {
 
 std::string turn(double rotr_rad, double rotu_rad) { return "rotr(" + num(rotr_rad) + ")rotu(" + num(rotu_rad) + ")"; }
 
-std::string stemStage(int number, const std::string& arguments, const std::string& length, double radius, double growTime, const std::string& more) {
+std::string stemStage(int number, const std::string& arguments, const std::string& length, double radius, double growTime, const std::string& more, const glm::dvec3& colour) {
   const std::string time = num(growTime);
   return "            Stage " + std::to_string(number) + arguments + " { GrowRate = (" + length + ")/" + time + "; GrowTime = " + time + "; BroadenRate = " +
-         num(radius / simeco::modelRadius / growTime) + "; " + more + "ColorFront = RGBA(0.36, 0.45, 0.22, 1); }\n";
+         num(radius / simeco::modelRadius / growTime) + "; " + more + colourAttribute(colour) + "}\n";
 }
 
 std::string leafStage(int number, const std::string& model, double length, double growTime, const std::optional<glm::dvec3>& colour, const std::string& more) {
@@ -56,10 +56,10 @@ std::string leafStage(int number, const std::string& model, double length, doubl
          "; UnfoldTime = " + time + "; " + more + colourAttribute(colour) + "}\n";
 }
 
-std::string flowerStage(int number, const std::string& model, double length, double growTime, const std::optional<glm::dvec3>& colour) {
+std::string flowerStage(int number, const std::string& model, double length, double growTime, const std::optional<glm::dvec3>& colour, const std::string& more) {
   const std::string time = num(growTime);
   return "            Stage " + std::to_string(number) + " { Model = " + quoted(model + ".i") + "; GrowRate = " + num(length / growTime) + "; GrowTime = " + time +
-         "; UnfoldTime = " + time + "; " + colourAttribute(colour) + "}\n";
+         "; UnfoldTime = " + time + "; " + more + colourAttribute(colour) + "}\n";
 }
 
 Result<simeco::Grammar> grammarOf(const PlantText& plant) {

@@ -27,9 +27,10 @@ struct PlantText {
 /// "rotr(0.9)rotu(0)".
 [[nodiscard]] std::string turn(double rotr_rad, double rotu_rad = 0);
 /// One line a stage. `arguments` are its further arguments, "(length)"; `length` may be an expression; `more` are further attributes.
-[[nodiscard]] std::string stemStage(int number, const std::string& arguments, const std::string& length, double radius, double growTime, const std::string& more);
+[[nodiscard]] std::string stemStage(int number, const std::string& arguments, const std::string& length, double radius, double growTime, const std::string& more,
+                                    const glm::dvec3& colour = {0.36, 0.45, 0.22});
 [[nodiscard]] std::string leafStage(int number, const std::string& model, double length, double growTime, const std::optional<glm::dvec3>& colour, const std::string& more = {});
-[[nodiscard]] std::string flowerStage(int number, const std::string& model, double length, double growTime, const std::optional<glm::dvec3>& colour);
+[[nodiscard]] std::string flowerStage(int number, const std::string& model, double length, double growTime, const std::optional<glm::dvec3>& colour, const std::string& more = {});
 
 /// Reads and checks the text. Never fails but by a fault in a pattern of ours; then the message is the checker's.
 [[nodiscard]] Result<simeco::Grammar> grammarOf(const PlantText& plant);

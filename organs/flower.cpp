@@ -22,7 +22,7 @@ constexpr double pi = std::numbers::pi;
 constexpr Angle goldenAngle = Angle::fromDegrees(137.50776405003785);
 
 using Cell = const ShapeCell&;
-constexpr std::array<ShapeColumn<FlowerShape>, 17> columns{{
+constexpr std::array<ShapeColumn<FlowerShape>, 19> columns{{
     {"petals", [](FlowerShape& s, Cell c) { s.petals = c.whole(); }},
     {"whorls", [](FlowerShape& s, Cell c) { s.whorls = c.whole(); }},
     {"petalShape", [](FlowerShape& s, Cell c) { s.petalShape = c.text; }},
@@ -39,6 +39,8 @@ constexpr std::array<ShapeColumn<FlowerShape>, 17> columns{{
     {"stamens", [](FlowerShape& s, Cell c) { s.stamens = c.whole(); }},
     {"stamenLength", [](FlowerShape& s, Cell c) { s.stamenLength = c.number(); }},
     {"petalColour", [](FlowerShape& s, Cell c) { s.petalColour = c.colour(); }},
+    {"fused", [](FlowerShape& s, Cell c) { s.fused = c.number(); }},
+    {"banner", [](FlowerShape& s, Cell c) { s.banner = c.number(); }},
     {"centreColour", [](FlowerShape& s, Cell c) { s.centreColour = c.colour(); }},
 }};
 
@@ -96,6 +98,86 @@ Part petalsOf(const FlowerShape& shape, Detail detail) {
   return part;
 }
 
+/// A pea's flower: what differs between its petals. Azimuth 180 degrees is up.
+struct PeaPetal {
+  double azimuth_deg, lean_deg, length, widthToLength, cup;
+};
+constexpr std::array<PeaPetal, 5> peaPetals{{{180, 68, 1.0, 1.15, -0.5}, {62, 40, 0.86, 0.52, 0.7}, {-62, 40, 0.86, 0.52, 0.7}, {16, 46, 0.74, 0.42, 1.1}, {-16, 46, 0.74, 0.42, 1.1}}};
+
+Part peaPetalsOf(const FlowerShape& shape, Detail detail) {
+  Part part{"petal", shape.petalColour, {}};
+  for (const PeaPetal& petal : peaPetals)
+    append(part.mesh, transformed(bladeMesh(shape.petalShape, petal.widthToLength, petal.cup, detail),
+                                  matrixOf({.radius = shape.mouthRadius, .height = shape.tube, .length = (1 - shape.tube) * petal.length,
+                                            .azimuth = Angle::fromDegrees(petal.azimuth_deg), .lean = Angle::fromDegrees(petal.lean_deg)})));
+  return part;
+}
+
+// ---- corollas of one piece
+
+/// How far a lobe reaches at `x` across it, -1 to 1: pointed, rounded, or blunt as the petals' shape is.
+double lobeReach(const FlowerShape& shape, double x) {
+  const double a = std::abs(x);
+  if (shape.petalShape == "deltoid") return 1 - std::pow(a, 1.2);
+  if (shape.petalShape == "obcordate") return 1 - std::pow(a, 4) - 0.14 * std::max(0.0, 1 - a / 0.35);
+  return 1 - a * a;
+}
+
+/// The tube's radius at `t` of its length: a funnel opens late, a bell early, an urn is widest below its mouth.
+double tubeRadiusAt(const FlowerShape& shape, double t) {
+  if (shape.mouthRadius < shape.tubeRadius) return std::max(shape.mouthRadius, shape.tubeRadius * std::pow(std::sin(pi * (0.12 + 0.8 * t)), 0.8));
+  const double opening = shape.tubeRadius < 0.2 * shape.mouthRadius ? 2.2 : 0.6;
+  return shape.tubeRadius + (shape.mouthRadius - shape.tubeRadius) * std::pow(t, opening);
+}
+
+/// A profile of the corolla: up the tube, then out along a lobe that reaches `reach` far; `v` from 0 to 1 up the tube, to 2 to the rim.
+glm::dvec2 corollaProfile(const FlowerShape& shape, double v, double reach) {
+  if (v <= 1) return {tubeRadiusAt(shape, v), shape.tube * v};
+  glm::dvec2 at{tubeRadiusAt(shape, 1), shape.tube};
+  constexpr int steps = 8;
+  const double piece = (v - 1) * reach / steps;
+  for (int i = 0; i < steps; ++i) {
+    const double lean = Angle::fromDegrees(shape.spread_deg).radians() * (0.35 + 0.65 * (v - 1) * (i + 0.5) / steps);
+    at += piece * glm::dvec2{std::sin(lean), std::cos(lean)};
+  }
+  return at;
+}
+
+/// Tube, throat and lobes as one thin surface that is closed at its foot. Its upper side is the inside.
+Part corollaOf(const FlowerShape& shape, Detail detail) {
+  const int perLobe = detail == Detail::Close ? 12 : detail == Detail::Medium ? 6 : 4;
+  const int rows = detail == Detail::Close ? 16 : detail == Detail::Medium ? 8 : 4;
+  const int sides = perLobe * shape.petals;
+  const auto pointAt = [&](double around, double v) {
+    const double x = std::remainder(around * shape.petals / (2 * pi), 1.0) * 2;
+    const double reach = (1 - shape.tube) * (shape.fused + (1 - shape.fused) * std::max(0.0, lobeReach(shape, x)));
+    const glm::dvec2 p = corollaProfile(shape, v, reach);
+    return glm::dvec3{p.x * std::sin(around), p.y, p.x * std::cos(around)};
+  };
+  Part part{"petal", shape.petalColour, {}};
+  Mesh& mesh = part.mesh;
+  for (int row = 0; row <= rows; ++row)
+    for (int side = 0; side <= sides; ++side) {
+      constexpr double h = 1e-4;
+      const double around = 2 * pi * (side % sides) / sides, v = 2.0 * row / rows;
+      const glm::dvec3 round = pointAt(around + h, v) - pointAt(around - h, v), up = pointAt(around, std::min(v + h, 2.0)) - pointAt(around, std::max(v - h, 0.0));
+      mesh.positions.emplace_back(pointAt(around, v));
+      mesh.normals.emplace_back(glm::normalize(glm::cross(up, round)));
+      mesh.uvs.emplace_back(static_cast<double>(side) / sides, v / 2);
+    }
+  mesh.positions.emplace_back(0, 0, 0);
+  mesh.normals.emplace_back(0, 1, 0);
+  mesh.uvs.emplace_back(0.5, 0);
+  const auto at = [&](int row, int side) { return static_cast<std::uint32_t>(row * (sides + 1) + side); };
+  const auto foot = static_cast<std::uint32_t>(mesh.positions.size() - 1);
+  for (int side = 0; side < sides; ++side) {
+    mesh.triangles.insert(mesh.triangles.end(), {foot, at(0, side), at(0, side + 1)});
+    for (int row = 0; row < rows; ++row)
+      mesh.triangles.insert(mesh.triangles.end(), {at(row, side), at(row + 1, side + 1), at(row, side + 1), at(row, side), at(row + 1, side), at(row + 1, side + 1)});
+  }
+  return part;
+}
+
 Part sepalsOf(const FlowerShape& shape, Detail detail) {
   Part part{"sepal", {0.13f, 0.30f, 0.06f}, {}};
   const Mesh sepal = bladeMesh("lanceolate", 0.35, 0.3, detail);
@@ -110,7 +192,7 @@ Part sepalsOf(const FlowerShape& shape, Detail detail) {
 }
 
 Part tubeOf(const FlowerShape& shape, Detail detail) {
-  const int sides = detail == Detail::Close ? 12 : detail == Detail::Medium ? 8 : 4;
+  const int sides = detail == Detail::Close ? 16 : detail == Detail::Medium ? 8 : 4;
   const std::vector<glm::dvec2> profile{{shape.tubeRadius, 0},
                                         {0.5 * (shape.tubeRadius + 0.55 * shape.mouthRadius), 0.5 * shape.tube},
                                         {0.9 * shape.mouthRadius, 0.9 * shape.tube},
@@ -154,8 +236,12 @@ std::vector<Part> flowerParts(const FlowerShape& shape, Detail detail) {
   std::vector<Part> parts;
   const bool fine = detail != Detail::Far;
   if (fine && shape.sepals > 0) parts.push_back(sepalsOf(shape, detail));
-  if (shape.tube > 0.02) parts.push_back(tubeOf(shape, detail));
-  parts.push_back(petalsOf(shape, detail));
+  if (shape.fused > 0) {
+    parts.push_back(corollaOf(shape, detail));
+  } else {
+    if (shape.tube > 0.02) parts.push_back(tubeOf(shape, detail));
+    parts.push_back(shape.banner > 0 ? peaPetalsOf(shape, detail) : petalsOf(shape, detail));
+  }
   if (shape.centreRadius > 0) parts.push_back(centreOf(shape, detail));
   if (fine && shape.stamens > 0) parts.push_back(stamensOf(shape));
   return parts;

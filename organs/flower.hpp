@@ -25,6 +25,8 @@ struct FlowerShape {
   double tubeRadius = 0.03;             ///< at its foot
   double mouthRadius = 0.05;
   double bilateral = 0;                 ///< 0 radial symmetry; to 1: upper petals small and upright, lower ones long and spread
+  double fused = 0;                     ///< share of the petals' length grown together: above 0 tube and petals are one corolla with lobes
+  double banner = 0;                    ///< above 0: a pea's five petals: a large upright banner, two wings, a keel of two
   int sepals = 5;
   double sepalLength = 0.3;
   double centreRadius = 0;              ///< of a domed disc (composite heads)

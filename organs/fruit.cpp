@@ -75,7 +75,7 @@ struct Fineness {
 Fineness finenessOf(const FruitShape& shape, Detail detail) {
   const bool round = shape.ribs == 0 && shape.seeds == 0;
   switch (detail) {
-    case Detail::Close: return round ? Fineness{9, 14} : Fineness{std::max(9, 3 * shape.seeds), std::max(12, 5 * shape.ribs)};
+    case Detail::Close: return round ? Fineness{14, 28} : Fineness{std::max(14, 4 * shape.seeds), std::max(20, 6 * shape.ribs)};
     case Detail::Medium: return Fineness{5, 7};
     case Detail::Far: return {3, 3};
   }

@@ -74,7 +74,7 @@ Frame frameOf(const FlatLeaf& leaf, const std::vector<glm::vec2>& outline, int s
     low = glm::min(low, glm::dvec2(p));
     high = glm::max(high, glm::dvec2(p));
   }
-  if (leaf.from <= -0.25) low.y = std::min(low.y, -0.1);  // the petiole
+  if (leaf.from <= -0.25 && leaf.shape.shield == 0) low.y = std::min(low.y, -0.1);  // the petiole
   const double extent = std::max({high.x - low.x, high.y - low.y, 0.1});
   return {0.88 * side_px / extent, 0.5 * (low + high), 0.5 * side_px};
 }
@@ -121,11 +121,10 @@ cv::Mat flatLeafCell(const FlatLeaf& leaf, int cell_px) {
 }
 
 /// The same picture of a mesh, over the sheet's paper.
-Result<cv::Mat> meshCell(Painter& painter, const PlantMesh& mesh, int cell_px) {
+Result<cv::Mat> meshCell(Painter& painter, const PlantMesh& mesh, ViewPreset view, int cell_px) {
   PictureOptions options;
   options.width_px = options.height_px = cell_px;
-  options.view = ViewPreset::ThreeQuarter;
-  if (!mesh.models.empty() && mesh.stems.positions.empty() && mesh.name.starts_with("flat ")) options.view = ViewPreset::Front;
+  options.view = view;
   options.background = linearFromSrgb(glm::dvec3{250, 250, 247} / 255.0);
   options.ground = Ground::None;
   options.smoothing = Smoothing::Fine;
@@ -173,7 +172,7 @@ class Drawer {
     if (const FlatLeaf* leaf = std::get_if<FlatLeaf>(&cell.drawing)) {
       sheet_.paste(flatLeafCell(*leaf, o_.cell_px), x, y);
     } else {
-      const auto picture = meshCell(painter_, std::get<PlantMesh>(cell.drawing), o_.cell_px);
+      const auto picture = meshCell(painter_, std::get<PlantMesh>(cell.drawing), cell.view, o_.cell_px);
       if (!picture) return picture.failure();
       sheet_.paste(*picture, x, y);
     }

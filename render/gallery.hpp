@@ -7,6 +7,7 @@
 
 #include "base/result.hpp"
 #include "organs/leaf.hpp"
+#include "render/picture.hpp"
 #include "render/types.hpp"
 
 #include <string>
@@ -26,6 +27,7 @@ struct GalleryCell {
   std::string english;
   std::string chinese;
   std::variant<FlatLeaf, PlantMesh> drawing;
+  ViewPreset view = ViewPreset::ThreeQuarter;  ///< of a mesh
 };
 
 struct GallerySection {

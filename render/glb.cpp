@@ -49,7 +49,7 @@ class GlbWriter {
     model_.asset.version = "2.0";
     model_.asset.generator = "Axil";
     model_.buffers.resize(1);
-    model_.buffers[0].data.reserve(mesh.stems.positions.size() * 32 + mesh.stems.triangles.size() * 4 + 64);
+    model_.buffers[0].data.reserve((mesh.stems.positions.size() + mesh.faces.positions.size()) * 32 + (mesh.stems.triangles.size() + mesh.faces.triangles.size()) * 4 + 64);
   }
 
   int addStems() { return addColoured("stems", mesh_.stems, Surface::Solid); }

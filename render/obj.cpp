@@ -3,29 +3,29 @@
 #include "base/text.hpp"
 #include "render/colour.hpp"
 #include "render/flat_mesh.hpp"
+#include "render/number_text.hpp"
 #include "render/parallel.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <atomic>
+#include <cmath>
+#include <string_view>
 
 namespace axil::render {
 namespace {
 
-template <class Number>
-void appendNumber(std::string& text, Number value) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  text.append(digits.data(), end.ptr);
-}
+constexpr int normalDecimals = 4;  // 0.006 degrees
 
-void appendVector(std::string& text, const char* keyword, const glm::vec3& v) {
-  text += keyword;
+void appendVector(std::string& text, std::string_view keyword, const glm::vec3& v, const FixedText& numbers) {
+  std::array<char, 4 + 3 * (longestNumber + 1)> line;
+  char* at = std::copy(keyword.begin(), keyword.end(), line.data());
   for (const float x : {v.x, v.y, v.z}) {
-    text += ' ';
-    appendNumber(text, x + 0.0f);  // no -0
+    *at++ = ' ';
+    at = numbers.write(at, x);
   }
-  text += '\n';
+  *at++ = '\n';
+  text.append(line.data(), at);
 }
 
 /// A name as OBJ has it: one word.
@@ -34,15 +34,22 @@ std::string asWord(std::string name) {
   return name.empty() ? "unnamed" : name;
 }
 
+/// A triangle; its corners' positions and normals have the same numbers.
 void appendFace(std::string& text, const std::uint32_t* corners) {
-  text += 'f';
+  std::array<char, 4 + 6 * (longestNumber + 2)> line;
+  char* at = line.data();
+  *at++ = 'f';
   for (int k = 0; k < 3; ++k) {
-    text += ' ';
-    appendNumber(text, corners[k] + 1);
-    text += "//";
-    appendNumber(text, corners[k] + 1);
+    *at++ = ' ';
+    const char* const number = at;
+    at = writeWhole(at, corners[k] + 1);
+    const char* const end = at;
+    *at++ = '/';
+    *at++ = '/';
+    at = std::copy(number, end, at);
   }
-  text += '\n';
+  *at++ = '\n';
+  text.append(line.data(), at);
 }
 
 /// The mean colour of what each material covers: stems are coloured by vertex, which OBJ cannot say.
@@ -82,27 +89,38 @@ std::vector<std::uint32_t> byOrgan(const FlatMesh& flat) {
   return order;
 }
 
-/// Appends `write(i, text)` for every i below `count`, made piece by piece by as many threads as there are.
+/// Appends `write(i, text)` for every i below `count`: threads write pieces, and each is appended when its turn has come.
 template <class Write>
 void appendAll(std::string& text, std::size_t count, const Write& write) {
-  constexpr std::size_t atOnce = 8192, piecesAtOnce = 16;
-  std::array<std::string, piecesAtOnce> pieces;
-  for (std::size_t first = 0; first < count; first += atOnce * piecesAtOnce) {
-    inParallel(piecesAtOnce, [&](std::size_t piece) {
-      pieces[piece].clear();
-      const std::size_t from = first + piece * atOnce;
-      for (std::size_t i = from; i < std::min(from + atOnce, count); ++i) write(i, pieces[piece]);
-    });
-    for (const std::string& piece : pieces) text += piece;
-  }
+  constexpr std::size_t atOnce = 8192;
+  const std::size_t pieces = piecesFor(count, atOnce);
+  std::atomic<std::size_t> next = 0, turn = 0;
+  inParallel(threadsFor(pieces), [&](std::size_t) {
+    std::string piece;
+    for (std::size_t k = next++; k < pieces; k = next++) {
+      piece.clear();
+      for (std::size_t i = k * atOnce; i < std::min((k + 1) * atOnce, count); ++i) write(i, piece);
+      for (std::size_t now = turn; now != k; now = turn) turn.wait(now);
+      text += piece;
+      turn = k + 1;
+      turn.notify_all();
+    }
+  });
+}
+
+double largestCoordinate(const FlatMesh& flat) {
+  float largest = 0;
+  for (const glm::vec3& p : flat.positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return largest;
 }
 
 std::string objOf(const PlantMesh& mesh, const FlatMesh& flat, const std::string& mtlName) {
+  const FixedText lengths = FixedText::forNumbersUpTo(largestCoordinate(flat)), directions(normalDecimals);
   std::string text;
-  text.reserve(flat.positions.size() * 64 + flat.triangles.size() * 7 + 1024);
+  text.reserve(flat.positions.size() * 64 + flat.triangles.size() * 18 + 1024);  // pages that stay empty cost nothing
   text += "# " + (mesh.name.empty() ? std::string("plant") : asWord(mesh.name)) + ", Y up\nmtllib " + mtlName + "\n";
-  appendAll(text, flat.positions.size(), [&](std::size_t i, std::string& to) { appendVector(to, "v", flat.positions[i]); });
-  appendAll(text, flat.normals.size(), [&](std::size_t i, std::string& to) { appendVector(to, "vn", flat.normals[i]); });
+  appendAll(text, flat.positions.size(), [&](std::size_t i, std::string& to) { appendVector(to, "v", flat.positions[i], lengths); });
+  appendAll(text, flat.normals.size(), [&](std::size_t i, std::string& to) { appendVector(to, "vn", flat.normals[i], directions); });
   const std::vector<std::uint32_t> order = byOrgan(flat);
   appendAll(text, order.size(), [&](std::size_t i, std::string& to) {
     const TriangleSource& source = flat.sources[order[i]];

@@ -10,10 +10,13 @@
 
 namespace axil::render {
 
+/// So many threads work on `count` things.
+inline std::size_t threadsFor(std::size_t count) { return std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, std::clamp<std::size_t>(count, 1, 8)); }
+
 /// `work(k)` for every k below `count`; `work` writes only to what belongs to k.
 template <class Work>
 void inParallel(std::size_t count, const Work& work) {
-  const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, std::clamp<std::size_t>(count, 1, 8));
+  const std::size_t threads = threadsFor(count);
   const auto share = [&](std::size_t first) {
     for (std::size_t k = first; k < count; k += threads) work(k);
   };

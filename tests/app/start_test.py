@@ -36,13 +36,11 @@ class Start(unittest.TestCase):
     def test_the_light_program_loads_nothing_heavy(self):
         loaded = libraries(AXIL)
         self.assertIn("libc.so", loaded)
-        for name in HEAVY:
-            self.assertNotIn(name, loaded)
+        self.assertEqual([name for name in HEAVY if name in loaded], [])
 
     def test_measuring_loads_no_drawing_library(self):
         loaded = libraries(AXIL.parent / "axil-measure")
-        self.assertIn("libceres", loaded)
-        self.assertNotIn("libvtk", loaded)
+        self.assertTrue("libopencv_calib3d" in loaded and "libvtk" not in loaded)
 
     def test_help_lists_every_command_of_every_program(self):
         light = run(AXIL, "--help")[1]
