@@ -291,7 +291,7 @@ Taken photoHand(Pane& pane) {
     const ClickMeaning meaning = meaningHere(pane, at);
     sayWhat(pane, meaning);
     if (places(meaning)) state.ridge = ridgeNear(pane, at);
-    if (state.ridge) state.status += filled(pane.panel.t("snaps"), {{"percent", std::to_string(std::lround(100 * state.ridge->confidence))}});
+    if (state.ridge) state.status += "  " + filled(pane.panel.t("snaps"), {{"percent", std::to_string(std::lround(100 * state.ridge->confidence))}});
   }
   return std::nullopt;
 }
