@@ -207,7 +207,8 @@ class Checker {
       case ValueKind::Vector:
         return wantsCall("vector", "a vector(x, y, z)");
       case ValueKind::Colour:
-        return wantsCall("RGBA", "a colour RGBA(red, green, blue, alpha)");
+        wantsCall("RGBA", "a colour RGBA(red, green, blue, alpha)");
+        return shares(a, call);
       case ValueKind::Body:
         if (!call || (call->function != "sphere" && call->function != "box")) wants("a sphere(x, y, z, radius) or a box(x, y, z, x, y, z)");
         return;
@@ -218,6 +219,13 @@ class Checker {
       case ValueKind::Positive:
         return number(a, kind);
     }
+  }
+  /// The parts of a colour go from 0 to 1.
+  void shares(const Attribute& a, const Call* call) {
+    if (call == nullptr || call->function != "RGBA") return;
+    for (const ExprId id : call->arguments)
+      if (const Number* part = numberIn(grammar_, id); part != nullptr && part->value > 1)
+        return report_.warning(grammar_.at(id).where, "the parts of '" + a.name + "' go from 0 to 1", part->value <= 255 ? "divide by 255" : "");
   }
   void number(const Attribute& a, ValueKind kind) {
     const Expr& expr = grammar_.at(a.value);
@@ -638,6 +646,7 @@ class Checker {
     all.insert(all.end(), globals_.begin(), globals_.end());
     all.insert(all.end(), environment_.begin(), environment_.end());
     std::string hint = isAttribute ? "give it a value: " + n.name + " = 1;" : didYouMean(n.name, all);
+    if (n.name == "pi" || n.name == "PI") hint = "write 3.141593, or give it a value in the EcoSystem: " + n.name + " = 3.141593;";
     if (hint.empty()) hint = "a rule's own names stand in its predecessor, for example S(" + n.name + ") -> ...";
     report_.error(where, "unknown name '" + n.name + "'", hint);
   }
@@ -648,10 +657,15 @@ class Checker {
     if (n.op == BinaryOp::Remainder || n.op == BinaryOp::Power) since11("operators such as % and ^", where);
     if (n.op == BinaryOp::And || n.op == BinaryOp::Or) since11("operators such as && and ||", where);
   }
+  [[nodiscard]] std::string functionHint(const std::string& function) const {
+    if (function == "for") return "write i = 0; while (i < 3) { ...; i = i+1; }";
+    if (function == "rand" || function == "ran") return "random(low, high) draws a number between the two";
+    return didYouMean(function, functionNames_);
+  }
   void call(const Call& n, SourceSpan where) {
     const auto words = functionWords();
     const auto word = std::find_if(words.begin(), words.end(), [&](const FunctionWord& w) { return w.name == n.function; });
-    if (word == words.end()) return report_.error(where, "unknown function '" + n.function + "'", didYouMean(n.function, functionNames_));
+    if (word == words.end()) return report_.error(where, "unknown function '" + n.function + "'", functionHint(n.function));
     if (word->since11)
       since11(n.function == "random" || n.function == "normal" ? "random numbers" : "functions such as " + n.function, where);
     const auto count = static_cast<int>(n.arguments.size());

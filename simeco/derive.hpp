@@ -6,8 +6,8 @@
 /// The same grammar, seed and steps give the same bytes for any number of threads. Random draws belong to (seed, step, module):
 /// a draw more in one rule shifts no other module's draws.
 ///
-/// Fails with BadGrammar when the grammar cannot be run (`compile` lists why), with NoAnswer when it divides by zero or makes a
-/// number that is not finite (SimEco; the classic language keeps inf and nan), with LimitReached at a stated limit, with
+/// Fails with BadGrammar when the grammar cannot be run (`compile` lists why), with NoAnswer when it divides by zero or, in SimEco, makes
+/// a number that is not finite (the classic language keeps inf and nan), with LimitReached at a stated limit, with
 /// Cancelled. Each names the rule that was at work.
 /// Sources: L-Grammar Generator 2005, section 3.4; The Algorithmic Beauty of Plants, chapter 1; docs/simeco.md.
 
@@ -114,7 +114,7 @@ struct Derivation {
   std::size_t peakBytes = 0;                ///< strings, and the tables that a step needs
   int threads = 1;
   std::map<std::string, double> variables;  ///< the global variables of the L-system at the end
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;        ///< what only deriving shows; what a grammar's text shows, `check` and `checkLSystem` say
   std::vector<Origin> origins;              ///< one a module when `traced`
   RuleList rules;                           ///< all rules of the plant, by number
   std::shared_ptr<const Engine> engine;     ///< what `imageOf` needs

@@ -310,8 +310,7 @@ std::size_t Engine::peakBytes() const { return state_->peak; }
 const Program& Engine::program() const { return *state_->program; }
 
 std::vector<std::string> Engine::warnings() const {
-  std::vector<std::string> all = state_->program->warnings;
-  all.insert(all.end(), state_->notes.begin(), state_->notes.end());
+  std::vector<std::string> all = state_->notes;
   std::size_t clamped = 0;
   for (const Machine& machine : state_->machines) clamped += machine.clampedIndices;
   if (clamped > 0) all.push_back(std::to_string(clamped) + " array indices were outside their array; the nearest element was taken");

@@ -209,6 +209,13 @@ std::vector<std::int32_t> addOrgans(const GrowthData& data, const PlantHistory& 
   return organOf;
 }
 
+Plant momentOf(const GrowthData& data, double time) {
+  Plant plant{data.name, time, data.styles, {}};
+  plant.rules = data.rules;
+  for (const PlantHistory& history : data.plants) addOrgans(data, history, time, plant.organs);
+  return plant;
+}
+
 double fullSizeTime(const GrowthData& data) {
   double complete = 0;
   for (const PlantHistory& plant : data.plants) {

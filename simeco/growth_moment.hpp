@@ -10,6 +10,9 @@ namespace axil::simeco {
 /// Adds the organs that `plant` has at `time`; says for each body which organ it became, -1 where there is none.
 std::vector<std::int32_t> addOrgans(const GrowthData& data, const PlantHistory& plant, double time, std::vector<Organ>& organs);
 
+/// All plants at `time`.
+[[nodiscard]] Plant momentOf(const GrowthData& data, double time);
+
 /// The time from which on all sizes stay as they are.
 [[nodiscard]] double fullSizeTime(const GrowthData& data);
 

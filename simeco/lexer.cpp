@@ -1,5 +1,6 @@
 #include "simeco/lexer.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -271,6 +272,27 @@ TokenKind Lexer::scanSign() {
   }
 }
 
+namespace {
+
+/// What someone may have meant with signs that SimEco does not know.
+std::string meantBy(std::string_view run) {
+  if (run.starts_with('&')) return "write && for and";
+  if (run.starts_with('#')) return "a comment starts with //";
+  if (run.starts_with('\'') || run.starts_with("\u2018") || run.starts_with("\u2019") || run.starts_with("\u201c") || run.starts_with("\u201d")) return "names and texts stand in \"...\"";
+  if (run.starts_with("\u2212") || run.starts_with("\u2013")) return "the minus sign is -";
+  if (run.starts_with("\u2192")) return "the arrow is ->";
+  return "remove it";
+}
+
+/// At most so many bytes, and no sign cut in two.
+std::size_t validPrefix(std::string_view text, std::size_t most) {
+  std::size_t end = 0;
+  while (end < text.size() && end + utf8Length(text[end]) <= most) end += utf8Length(text[end]);
+  return std::min(end, text.size());
+}
+
+}  // namespace
+
 void Lexer::skipUnknown() {
   const std::size_t begin = position_;
   constexpr std::string_view known = " \t\r\n\f\v{}()[],;:+-*/%^?=!<>|\"";
@@ -279,9 +301,9 @@ void Lexer::skipUnknown() {
          known.find(text_[position_]) == std::string_view::npos)
     ++position_;
   const std::string_view run = text_.substr(begin, position_ - begin);
-  const bool printable = run.find_first_not_of("@#$&'.\\`~") == std::string_view::npos;
-  report(from(begin), printable ? "'" + std::string(run.substr(0, 20)) + "' means nothing here" : "a control character means nothing here",
-         "remove it");
+  const auto isControl = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  const bool printable = std::none_of(run.begin(), run.end(), isControl);
+  report(from(begin), printable ? "'" + std::string(run.substr(0, validPrefix(run, 20))) + "' means nothing here" : "a control character means nothing here", meantBy(run));
 }
 
 }  // namespace axil::simeco

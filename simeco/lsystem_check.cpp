@@ -73,6 +73,9 @@ class Checker {
 
   void lsystem(const RuleSet& rules) {
     readGlobals(rules);
+    rewritesDetaching_ = std::any_of(rules.productions.begin(), rules.productions.end(), [](const Production& rule) {
+      return rule.predecessor.size() == 1 && rule.predecessor.front().letter == "%" && rule.predecessor.front().arguments.size() == 1;
+    });
     for (const ArrayDeclaration& array : rules.arrays)
       for (const ExprId id : array.initial) expression(id);
     if (rules.derivationLength) expression(*rules.derivationLength);
@@ -223,6 +226,8 @@ class Checker {
     for (std::size_t i = 0; i < modules.size(); ++i) {
       for (const ExprId id : modules[i].arguments) expression(id);
       if (modules[i].letter == "?" && modules[i].arguments.size() == 2) entered(modules[i]);
+      if (modules[i].letter == "%" && modules[i].arguments.size() == 1 && !rewritesDetaching_)
+        report_.error(modules[i].where, "%(p), which would detach a branch and let it go on by itself, is not built", "write % to cut the branch off, or give % with a parameter a rule");
     }
   }
 
@@ -263,6 +268,9 @@ class Checker {
                           [&](const Binary& b) {
                             expression(b.left);
                             expression(b.right);
+                            const auto* divisor = std::get_if<Number>(&grammar_.at(b.right).node);
+                            if (divisor != nullptr && divisor->value == 0 && (b.op == BinaryOp::Divide || b.op == BinaryOp::Remainder))
+                              report_.warning(grammar_.at(b.right).where, "this divides by zero, which ends a derivation", "the reference program would divide by 1");
                           },
                           [&](const Chain& c) {
                             for (const ExprId operand : c.operands) expression(operand);
@@ -337,6 +345,7 @@ class Checker {
   Names ignored_;
   Names considered_;
   bool considers_ = false;
+  bool rewritesDetaching_ = false;  ///< %(p) is an ordinary letter
   std::map<std::string, const ArrayDeclaration*, std::less<>> arrays_;
 };
 

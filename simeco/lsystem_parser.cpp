@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace axil::simeco {
@@ -160,7 +161,8 @@ class LSystemParser : private LSystemReader {
     const std::size_t end = lineEnd(at_);
     limit_ = end;
     if (!sees("lsystem:")) {
-      errorHere(atTextEnd() ? "the text has no L-system" : "expected Lsystem: and a label, found " + found(), "a file starts with Lsystem: 1");
+      const bool colon = lower(peek()) == 'l' && sees("lsystem");
+      errorHere(atTextEnd() ? "the text has no L-system" : "expected Lsystem: and a label, found " + found(), colon ? "the colon is missing: write Lsystem: 1" : "a file starts with Lsystem: 1");
       ended_ = true;
       const bool goesOn = std::any_of(std::begin(kHeader), std::end(kHeader), [&](const HeaderRow& row) { return sees(row.words); });
       if (!goesOn) at_ = end;
@@ -215,6 +217,10 @@ class LSystemParser : private LSystemReader {
     std::string words;
     for (std::size_t i = at_; i < limit_ && (isLetter(text_[i]) || isBlank(text_[i])); ++i)
       if (!isBlank(text_[i])) words += lower(text_[i]);
+    // What other programs call it.
+    static const std::map<std::string_view, std::string_view> kOtherNames{{"omega", "axiom:"}, {"w", "axiom:"}, {"start", "start:"}, {"iterations", "derivation length:"},
+                                                                          {"steps", "derivation length:"}, {"end", "endlsystem"}, {"angle", "angle increment: in a .v file beside this one"}};
+    if (const auto other = kOtherNames.find(words); other != kOtherNames.end()) return "write " + std::string(other->second);
     std::string best;
     std::size_t fewest = words.size() / 4 + 1;
     for (const auto& row : rows) {
@@ -443,8 +449,9 @@ class LSystemParser : private LSystemReader {
       } else if (const HeaderRow* extern_ = rule ? nullptr : externRowHere(); extern_ != nullptr && rules.productions.empty()) {
         externBlock(*extern_, rules);
         continue;
-      } else if (!rule && headerRowHere() != nullptr) {
-        errorHere("a header item stands after the axiom", "move it before Axiom:");
+      } else if (const HeaderRow* misplaced = rule ? nullptr : headerRowHere(); misplaced != nullptr) {
+        if (misplaced->item == HeaderItem::Axiom) errorHere("an Axiom: stands behind the first rule or a second time", "write one, before the rules");
+        else errorHere("a header item stands after the axiom", "move it before Axiom:");
       } else {
         Production next = production(begin, end);
         if (!broken_) rulesOfSection(rules).push_back(std::move(next));
@@ -555,7 +562,8 @@ class LSystemParser : private LSystemReader {
   Production production(std::size_t begin, std::size_t end) {
     Production result;
     takeComments(begin, result.comments.before);
-    sides(result);
+    if (!looksLikeProduction()) reportOtherArrow();
+    if (!broken_) sides(result);
     const std::size_t afterSides = at_;
     if (!broken_ && eat(":")) conditionAndBlocks(result);
     skip();
@@ -582,14 +590,19 @@ class LSystemParser : private LSystemReader {
       error(begin, std::max(at_, begin + 1), "a rule needs at least one module to rewrite");
     skip();
     if (broken_ || peek() != '>') return;
-    if (at_ > begin && text_[at_ - 1] == '-') shortArrow_ = at_ - 1;
     ++at_;
     rule.right = modules(ModuleText::RightContext);
     if (!broken_ && (peek() == '<' || peek() == '>')) errorHere("a rule has one left context and one right context", "left < predecessor > right --> successor");
   }
 
+  /// On a line without an arrow: what other notations write for it.
+  void reportOtherArrow() {
+    for (const std::string_view arrow : {"::=", "==>", "-- >", "- ->", "=>", "->", ":="})
+      if (const std::size_t place = text_.substr(at_, limit_ - at_).find(arrow); place != std::string_view::npos)
+        return error(at_ + place, at_ + place + arrow.size(), "an arrow is written -->", "predecessor --> successor");
+  }
+
   void reportMissingArrow(std::size_t begin, std::size_t at) {
-    if (shortArrow_ != 0 && shortArrow_ > begin) return error(shortArrow_, shortArrow_ + 2, "an arrow is written -->");
     const bool indented = begin > 0 && isBlank(text_[begin - 1]) && (begin < 2 || text_[begin - 2] != '\n' || text_[begin - 1] != '\t');
     const std::string hint = indented ? "a line that continues the one before must start with a tab" : "a rule is written predecessor --> successor";
     if (atEnd()) {
@@ -600,6 +613,8 @@ class LSystemParser : private LSystemReader {
     }
     if (peek() == '=') errorHere("a single = gives a value, it does not compare", "write ==");
     else if (peek() == '<' || peek() == '>') errorHere("a rule has one left context and one right context", "left < predecessor > right --> successor");
+    else if (const std::string word = found(); word == "'&'" || word == "'and'") errorHere("conditions are not joined by " + word, "write &&");
+    else if (word == "'|'" || word == "'or'") errorHere("conditions are not joined by " + word, "write ||");
     else errorHere("expected -->, found " + found(), hint);
   }
 
@@ -640,15 +655,21 @@ class LSystemParser : private LSystemReader {
     result.modules = modules(ModuleText::Evaluated);
     if (!broken_ && atArrow()) errorHere("a second --> on one line", "a line that starts with a tab continues the rule before");
     if (!broken_ && result.modules.empty() && !nothing) errorHere("the successor is missing", "write * for nothing");
-    if (!broken_ && eat(":")) result.weight = expression();
+    if (!broken_ && eat(":")) result.weight = weight();
     skip();
     if (!broken_ && !atEnd()) errorHere("expected the end of the rule, found " + found());
     return result;
   }
 
+  ExprId weight() {
+    std::size_t end = limit_;
+    while (end > at_ && isBlank(text_[end - 1])) --end;
+    if (end > at_ && text_[end - 1] == '%') error(end - 1, end, "a weight is a number, not a percentage", "write 0.5 for 50%");
+    return expression();
+  }
+
   std::size_t comment_ = 0;
   bool ended_ = false;           ///< that the text is no whole L-system was said
-  std::size_t shortArrow_ = 0;
   Section section_ = Section::Productions;
   bool classicEnd_ = true;       ///< false in RTIL files, which the end of the text closes
 };

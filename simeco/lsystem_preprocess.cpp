@@ -49,7 +49,16 @@ Diagnostic Preprocessed::diagnostic(Severity severity, std::size_t begin, std::s
     const auto offset = static_cast<std::uint32_t>(piece.origin.begin + (piece.verbatim ? begin - piece.at : 0));
     message = "in " + file.name + ", line " + std::to_string(placeOf(file.text, offset).line) + ": " + message;
   }
+  if (!piece.verbatim) hint += (hint.empty() ? "the macro here stands for '" : "; the macro here stands for '") + madeBy(piece) + "'";
   return {severity, originOf(begin, end), std::move(message), std::move(hint)};
+}
+
+std::string Preprocessed::madeBy(const Piece& piece) const {
+  constexpr std::size_t most = 60;
+  const Piece* next = &piece + 1;
+  const std::size_t end = next < pieces_.data() + pieces_.size() ? next->at : text.size();
+  const std::string_view made = trimmed(std::string_view(text).substr(piece.at, end - piece.at));
+  return made.size() > most ? std::string(made.substr(0, most)) + "..." : std::string(made);
 }
 
 /// Runs over the outermost text and, from there, over what it includes.
@@ -229,8 +238,9 @@ class Preprocessor {
     if (name == "include") return include(rest, where);
     if (name == "error") return error(where, "#error " + std::string(rest), {});
     if (name == "pragma" || name == "warning" || (name.empty() && rest.empty())) return;
+    const bool filter = name == "ignore" || name == "consider";
     error(where, "a line that starts with # is a directive, and this is none of define, undef, include, if, ifdef, ifndef, elif, else, endif",
-          "to begin a rule with the letter #, write * < # --> ...");
+          filter ? "write " + std::string(name) + ": and the letters, without #, before Axiom:" : "a comment starts with //; to begin a rule with the letter #, write * < # --> ...");
   }
 
   [[nodiscard]] bool counting() const { return branches_.empty() || branches_.back().counts; }

@@ -46,6 +46,8 @@ class Preprocessed {
     SourceSpan includedAt;   ///< the `#include` of the outermost file
   };
   [[nodiscard]] const Piece& pieceAt(std::size_t offset) const;
+  /// What a macro made of its use, for messages.
+  [[nodiscard]] std::string madeBy(const Piece& piece) const;
   std::vector<Piece> pieces_;
   std::vector<File> files_;
 };

@@ -107,6 +107,8 @@ void LSystemReader::expect(std::string_view token, std::string_view what) {
 void LSystemReader::error(std::size_t begin, std::size_t end, std::string message, std::string hint) {
   if (broken_) return;
   broken_ = true;
+  const bool looksAlike = hint.empty() && (message.ends_with("'\u2212'") || message.ends_with("'\u2013'"));
+  if (looksAlike) hint = "this dash is not the minus sign -";
   diagnostics_.push_back(source_.diagnostic(Severity::Error, begin, end, std::move(message), std::move(hint)));
 }
 
@@ -234,7 +236,7 @@ ExprId LSystemReader::primary() {
   if (isDigit(c) || (c == '.' && isDigit(peek(1)))) return number();
   if (c == '"') return quotedText();
   if (!isNameStart(c)) {
-    errorHere("expected a value, found " + found());
+    errorHere("expected a value, found " + found(), valueHint());
     return add(Number{}, begin);
   }
   std::string word = name("a value");
@@ -245,6 +247,13 @@ ExprId LSystemReader::primary() {
     return add(Element{std::move(word), std::move(index)}, begin);
   }
   return add(Name{std::move(word)}, begin);
+}
+
+std::string LSystemReader::valueHint() const {
+  if (peek() == '+') return "a value has no sign +; branches stand in [ ], parentheses hold parameters";
+  if (peek() == '*' && at_ > 0 && text_[at_ - 1] == '*') return "a power is written ^";
+  if (peek() == '&' || peek() == '|') return "write && for and, || for or";
+  return {};
 }
 
 ExprId LSystemReader::number() {
@@ -301,7 +310,8 @@ ExprId LSystemReader::called(std::string function, std::size_t begin) {
     std::vector<std::string_view> names;
     for (const LSystemFunction& f : kFunctions) names.push_back(f.name);
     const bool statement = function == "if" || function == "while" || function == "do";
-    error(begin, nameEnd, "there is no function " + function, statement ? "statements stand in braces: { " + function + " (...) { ... } }" : didYouMean(function, names));
+    error(begin, nameEnd, "there is no function " + function,
+          statement ? "statements stand in braces: { " + function + " (...) { ... } }" : function == "for" ? "write i = 0; while (i < n) { ...; i = i+1; }" : didYouMean(function, names));
   }
   ++at_;
   Call call{std::move(function), {}};

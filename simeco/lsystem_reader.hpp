@@ -78,6 +78,8 @@ class LSystemReader {
   ExprId binary(int level);
   ExprId unary();
   ExprId primary();
+  /// What someone may have meant who wrote no value here.
+  [[nodiscard]] std::string valueHint() const;
   ExprId number();
   ExprId quotedText();
   ExprId called(std::string function, std::size_t begin);

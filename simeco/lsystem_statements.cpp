@@ -119,7 +119,8 @@ Statement LSystemReader::ifStatement() {
   if (otherwise) {
     at_ += 4;
     skip();
-    if (peek() != '{') errorHere("what else does needs braces", "write else { ... }");
+    const bool chained = text_.substr(at_, limit_ - at_).starts_with("if") && !isNamePart(peek(2));
+    if (peek() != '{') errorHere("what else does needs braces", chained ? "write else { if (...) { ... } }" : "write else { ... }");
     if (!broken_) result.no = block();
   } else {
     at_ = before;
@@ -168,6 +169,8 @@ Statement LSystemReader::assignment(std::string word, std::size_t begin) {
     if (index.empty()) return {Assign{std::move(word), value}, {}};
     return {AssignElement{std::move(word), std::move(index), value}, {}};
   }
+  const bool typed = (word == "int" || word == "float" || word == "double" || word == "var" || word == "let") && isNameStart(peek());
+  if (typed) error(begin, begin + word.size(), "variables have no type", "leave out " + word + "; a name is a variable once it is given a value");
   at_ = begin;
   const ExprId value = expression();
   expect(";", "after the statement");

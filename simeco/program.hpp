@@ -92,7 +92,6 @@ struct CompiledSuccessor {
   bool constant = true;          ///< every term is a constant
   std::vector<double> values;    ///< of a constant successor
   Term weight;
-  bool hasWeight = false;
 };
 
 struct CompiledRule {
@@ -179,7 +178,6 @@ struct Program {
   std::vector<Instruction> instructions;
   std::vector<Code> codes;
   std::vector<std::string> texts;
-  std::vector<std::string> warnings;
 
   [[nodiscard]] const System& main() const { return systems.front(); }
 };

@@ -151,9 +151,7 @@ class ExpressionCompiler : protected SymbolCompiler {
       if (const auto global = indexIn(scope.system->globals, variable)) return emit(Op::Global, 1, *global);
     if (grammar_.language == Language::SimEco)
       error("nothing is called " + variable + " here; name a parameter of the predecessor or its contexts, or an attribute");
-    else
-      warning("nothing is assigned to " + variable + "; it is 0");
-    emit(Op::Constant, 1);
+    emit(Op::Constant, 1);  // in the classic language 0, as `checkLSystem` warns
   }
 
   void binary(const Binary& x, const Scope& scope) {

@@ -180,7 +180,6 @@ class Compiler : protected StatementCompiler {
       s.values.push_back(t.value);
     }
     s.keys = keysOf(source.modules);
-    s.hasWeight = source.weight.has_value();
     s.weight = source.weight ? term(*source.weight, scope) : Term{.value = 1};
     return s;
   }
@@ -265,9 +264,6 @@ class Compiler : protected StatementCompiler {
     system.decomposition = table(rules.decomposition, system);
     system.homomorphism = table(rules.homomorphism, system);
     system.interaction = table(rules.interaction, system);
-    if (grammar_.language == Language::LSystem && !rules.seed)
-      for (const CompiledRule& r : system.productions.rules)
-        if (r.successors.front().hasWeight) warning("the rule " + r.name + " has a probability, but without a seed: line it is not used");
   }
   Code headerCode(const Block& statements, const Scope& scope, const char* where) {
     where_ = where;
@@ -296,7 +292,6 @@ class Compiler : protected StatementCompiler {
       where_ = "in the array " + declaration.name + ": ";
       const Scope scope{{}, &system};
       for (const ExprId value : declaration.initial) layout.initial.push_back(term(value, scope));
-      if (layout.initial.size() > elements) warning("more initial values than elements; the rest is not used");
       layout.initial.resize(std::min(layout.initial.size(), elements));
       where_.clear();
       system.arrayElements += elements;

@@ -75,10 +75,6 @@ class SymbolCompiler {
   void error(std::string message) {
     if (std::find(errors_.begin(), errors_.end(), message) == errors_.end()) errors_.push_back(where_ + std::move(message));
   }
-  void warning(const std::string& message) {
-    const std::string text = where_ + message;
-    if (std::find(program_.warnings.begin(), program_.warnings.end(), text) == program_.warnings.end()) program_.warnings.push_back(text);
-  }
 
   SymbolCode codeOf(const std::string& letter, std::size_t parameters) {
     const std::pair<std::string, std::size_t> key{letter, parameters};

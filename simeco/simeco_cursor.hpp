@@ -134,7 +134,7 @@ class Cursor {
       slip({previousEnd_ > 0 ? previousEnd_ - 1 : 0, previousEnd_}, std::string("missing ';' after the ") + what, "end it with ';'");
       return;
     }
-    error(token_.span, std::string("';' is expected after the ") + what + ", but here " + seen());
+    error(token_.span, std::string("';' is expected after the ") + what + ", but here " + seen(), is(TokenKind::Comma) ? "items end with ';', decimals stand behind a point" : "");
     skipItem();
   }
   /// To where the next item can start.

@@ -200,8 +200,14 @@ class ExpressionParser : protected Cursor {
       expect(TokenKind::RightParen, "after the expression", {}, is(TokenKind::Comma) ? "a place or direction is written vector(x, y, z)" : "");
       return lastParenthesised_ = inner;
     }
-    error(gap(), "a value is expected, but here " + seen());
+    error(gap(), "a value is expected, but here " + seen(), valueHint());
     return zero();
+  }
+  /// What someone may have meant who wrote no value here.
+  [[nodiscard]] std::string valueHint() const {
+    if (is(TokenKind::Arrow)) return "the arrow is ->, with one -";
+    if (is(TokenKind::Plus)) return "a value has no sign +; to count, write x = x+1;";
+    return {};
   }
   ExprId number() {
     const SourceSpan where = token_.span;

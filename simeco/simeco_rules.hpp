@@ -220,6 +220,8 @@ class RuleParser : protected ExpressionParser {
   /// What is often written instead of an arrow, or of a comparison in front of it.
   [[nodiscard]] std::string_view arrowHint() {
     if (is(TokenKind::Minus)) return "the arrow is ->";
+    if (isWord("and")) return "write && for and";
+    if (isWord("or")) return "write || for or";
     if (is(TokenKind::Assign)) return peek().kind == TokenKind::Greater ? "the arrow is ->" : "to compare, write ==";
     return {};
   }
@@ -252,7 +254,7 @@ class RuleParser : protected ExpressionParser {
   }
   ExprId weight() {
     const ExprId value = is(TokenKind::Number) ? primary() : parenthesised();
-    expect(TokenKind::Colon, "after a successor's weight");
+    expect(TokenKind::Colon, "after a successor's weight", {}, "A(i) -> 0.7: S(1) | 0.3: L(1) ;");
     return value;
   }
   /// A rule or axiom ran on into the next rule because its ; is missing: give back the line that is the next rule.
