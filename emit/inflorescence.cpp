@@ -267,7 +267,7 @@ class Writer {
     const FruitPlan& fruit = plan_.fruit;
     const double room = plan_.type == Type::Solitary ? 1 : std::clamp(plan_.flowerWidth / std::max(fruit.width, 0.35 * fruit.length), 0.1, 1.0);
     rule(a(kFruitApex, "k") + " : k > 0 -> " + a(kFruitApex, "k-1"));
-    rule(a(kFruitApex, "k") + " -> " + (room < 1 ? num(room) + ": F(1) | " + num(1 - room) + ": S(0)" : "F(1)"));
+    rule(a(kFruitApex, "k") + " -> " + (room < 1 ? num(room) + ": F(1) | " + num(1 - room) + ": rotu(0)" : "F(1)"));
     const bool pod = fruit.length > 3 * fruit.width;
     out_.fruitStages = leafStage(1, fruit.model, fruit.length, kFruitGrowTime, fruit.colour, pod ? "GravityTropism = 0.6; " : "");
     out_.ripening = fruit.bloom + 1 + kFruitGrowTime;
