@@ -261,5 +261,28 @@ TEST(Reference, EveryExampleParsesChecksGrowsAndPrintsAsItStands) {
   }
 }
 
+/// The hints of everything wrong with a plant that has these rules.
+std::string hintsFor(const std::string& rules, const std::string& stem = "GrowRate = 0.2;") {
+  Parsed parsed = parseSimeco("EcoSystem 1.1 \"e\" { Plant \"p\" { Stem { Stage 1 { " + stem + " } } Grow { " + rules + " } } }");
+  addChecked(parsed);
+  std::string hints;
+  for (const Diagnostic& d : parsed.diagnostics) hints += d.hint + "\n";
+  return hints;
+}
+
+TEST(Language, WhatNewcomersWriteIsMetWithWhatTheyMeant) {
+  const auto expects = [](const std::string& hints, const std::string& words) { EXPECT_NE(hints.find(words), std::string::npos) << "expected " << words << " in\n" << hints; };
+  expects(hintsFor("w = A(0); A(i) : i > 3 and i < 5 -> S(1) ;"), "write && for and");
+  expects(hintsFor("w = A(0); A(i) : i > 3 & i < 5 -> S(1) ;"), "write && for and");
+  expects(hintsFor("w = A(0); A(i) : i < 3 --> S(1) ;"), "the arrow is ->");
+  expects(hintsFor("w = S(1); # a comment"), "a comment starts with //");
+  expects(hintsFor("w = A(0); A(0) -> 50%: S(1) | 50%: S(1) S(1) ;"), "0.7: S(1) | 0.3: L(1)");
+  expects(hintsFor("w = A(0); A(0) -> rotr(rand(1))S(1) ;"), "random(low, high)");
+  expects(hintsFor("w = A(0); A(0) -> rotr(pi/2)S(1) ;"), "write 3.141593");
+  expects(hintsFor("start { x = 0; x++; } w = S(1);"), "x = x+1");
+  expects(hintsFor("w = S(1);", "GrowRate = 0,2;"), "decimals stand behind a point");
+  expects(hintsFor("w = S(1);", "GrowRate = 0.2; ColorFront = RGBA(120, 200, 80, 255);"), "divide by 255");
+}
+
 }  // namespace
 }  // namespace axil::simeco
