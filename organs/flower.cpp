@@ -181,9 +181,10 @@ Part corollaOf(const FlowerShape& shape, Detail detail) {
 Part sepalsOf(const FlowerShape& shape, Detail detail) {
   Part part{"sepal", {0.13f, 0.30f, 0.06f}, {}};
   const Mesh sepal = bladeMesh("lanceolate", 0.35, 0.3, detail);
-  const Angle lean = Angle::fromDegrees(shape.tube > 0.3 ? 14 : std::min(shape.spread_deg + 8, 95.0));
+  const bool wide = shape.fused > 0 && std::max(shape.tubeRadius, shape.mouthRadius) > 0.2;  // they lie under a bell or an urn
+  const Angle lean = Angle::fromDegrees(wide ? 72 : shape.tube > 0.3 ? 14 : std::min(shape.spread_deg + 8, 95.0));
   for (int i = 0; i < shape.sepals; ++i)
-    append(part.mesh, transformed(sepal, matrixOf({.radius = shape.tubeRadius,
+    append(part.mesh, transformed(sepal, matrixOf({.radius = shape.fused > 0 ? tubeRadiusAt(shape, 0) : shape.tubeRadius,
                                                    .height = 0,
                                                    .length = shape.sepalLength,
                                                    .azimuth = Angle::fromRadians(2 * pi * (i + 0.5) / shape.sepals),
