@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 namespace axil::document {
@@ -32,6 +33,9 @@ Plot plotOf(const quantify::LayeredStatistics& s, const QuantityName& name) {
   plot.xLabel = "rank along the axis";
   plot.yLabel = name.kind == QuantityName::Kind::Angle ? "degrees" : name.kind == QuantityName::Kind::Size ? s.unit : "share";
   plot.fromZero = name.kind != QuantityName::Kind::Angle;
+  plot.counted = true;
+  // Nothing shown is below 0, and no share above 1, whatever two standard errors say.
+  const double most = name.kind == QuantityName::Kind::Share ? 1 : std::numeric_limits<double>::infinity();
   for (const auto& layer : s.of(name.quantity).orders) {
     if (plot.series.size() == kMostOrders) break;
     PlotSeries series;
@@ -40,7 +44,7 @@ Plot plotOf(const quantify::LayeredStatistics& s, const QuantityName& name) {
     for (const auto& rank : layer.ranks) {
       const double y = rank.estimate.value * factor;
       const double bar = 2 * rank.estimate.error * factor;
-      series.points.push_back({static_cast<double>(rank.rank), y, y - bar, y + bar});
+      series.points.push_back({static_cast<double>(rank.rank), y, std::min(y, std::max(0.0, y - bar)), std::min(most, y + bar)});
     }
     plot.series.push_back(std::move(series));
   }
@@ -48,7 +52,7 @@ Plot plotOf(const quantify::LayeredStatistics& s, const QuantityName& name) {
 }
 
 Plot lengthPlot(const quantify::Backtest& test, const std::string& unit) {
-  Plot plot{"Lengths one stage ahead, with 90 % intervals", "true length, " + unit, "foretold, " + unit, {}, true};
+  Plot plot{"Lengths one stage ahead, with 90 % intervals", "true length, " + unit, "foretold, " + unit, {}, true, false};
   PlotSeries goesOn{"goes on", {}, false, true};
   PlotSeries starts{"first of a branch", {}, false, true};
   double most = 0;
@@ -62,7 +66,7 @@ Plot lengthPlot(const quantify::Backtest& test, const std::string& unit) {
 }
 
 Plot countPlot(const quantify::Backtest& test) {
-  Plot plot{"New segments of each plant", "plant", "segments", {}, true};
+  Plot plot{"New segments of each plant", "plant", "segments", {}, true, true};
   PlotSeries foretold{"foretold, 90 %", {}, false, true};
   PlotSeries repeated{"last stage again", {}, false, true};
   PlotSeries thesis{"thesis' form", {}, false, true};

@@ -59,6 +59,8 @@ Range widened(double low, double high) {
   return {low - room, high + room};
 }
 
+constexpr double kForLegend = 0.055;  // of the height, a line of the legend
+
 Range rangeOf(const Plot& plot, bool ofX) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
@@ -71,6 +73,8 @@ Range rangeOf(const Plot& plot, bool ofX) {
   if (!ofX && plot.fromZero) low = std::min(low, 0.0);
   Range range = widened(low, high);
   if (!ofX && plot.fromZero && low == 0) range.low = 0;
+  if (ofX && plot.counted) return {std::min(range.low, low - 0.5), std::max(range.high, high + 0.5)};
+  if (!ofX) range.high += kForLegend * static_cast<double>(plot.series.size()) * (range.high - range.low);
   return range;
 }
 
@@ -103,7 +107,7 @@ class Painter {
   [[nodiscard]] int row(double y) const { return image_.rows - kBottom - static_cast<int>(std::lround((y - y_.low) / (y_.high - y_.low) * (image_.rows - kTop - kBottom))); }
 
   void grid() {
-    const double dx = stepFor(x_);
+    const double dx = plot_.counted ? std::max(1.0, std::ceil(stepFor(x_))) : stepFor(x_);
     for (double x = std::ceil(x_.low / dx) * dx; x <= x_.high; x += dx) {
       cv::line(image_, {column(x), kTop}, {column(x), image_.rows - kBottom}, kGrid, 1);
       put(image_, shortest(roundedTo(x, 6) + 0.0), {column(x), image_.rows - kBottom + 18}, 0.4, true);

@@ -33,6 +33,7 @@ struct Plot {
   std::string yLabel;
   std::vector<PlotSeries> series;
   bool fromZero = false;          ///< the y axis shows 0
+  bool counted = false;           ///< x counts things: ticks are whole
 };
 
 /// Plots in a grid of `columns`, each `width_px` x `height_px`. Fails with BadInput for none, for values that are not finite and for sizes below 200 or above 4000 px.

@@ -5,9 +5,11 @@
 
 A mismatch leaves NAME.out beside the golden file; look at the difference and copy it over when it is meant.
 """
+import json
 import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 AXIL = str(pathlib.Path(sys.argv[1]).resolve())
@@ -39,6 +41,43 @@ class Golden(unittest.TestCase):
             exact = len(emitted(sample, "--kind", "structured", "--form", "exact"))
             print(f"{sample}: {exact} of {initial} bytes, {100 * exact / initial:.1f} %")
             self.assertLessEqual(exact, 0.3 * initial)
+
+    def test_options_that_the_kind_does_not_read_are_refused(self):
+        project = str(SOURCE / "samples/lantana/lantana.axil")
+        for options in (["--stages", "3"], ["--kind", "structured", "--style", "thesis"], ["--form", "exact"], ["--kind", "structured", "--error", "0.1"],
+                        ["--kind", "structured", "--form", "exact", "--orders", "1"], ["--kind", "structured", "--form", "exact", "--also", project]):
+            with self.subTest(options=options):
+                done = subprocess.run([AXIL, "emit", project, *options], capture_output=True, text=True, timeout=300)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn("leave it out", done.stderr)
+                self.assertEqual(done.stdout, "")
+
+    def test_a_family_of_several_plants_has_two_rules_an_order(self):
+        text = emitted("lantana", "--kind", "structured", "--also", str(SOURCE / "samples/lantana/lantana.axil")).decode()
+        self.assertIn("Plants like 2 measured ones", text)
+        self.assertLessEqual(text.count("->"), 4)
+
+
+class Compare(unittest.TestCase):
+    def run_axil(self, *arguments):
+        return subprocess.run([AXIL, *arguments], capture_output=True, text=True, timeout=300)
+
+    def test_a_plant_is_the_same_as_itself_and_as_its_initial_grammar(self):
+        project = str(SOURCE / "samples/lantana/lantana.axil")
+        with tempfile.TemporaryDirectory() as folder:
+            grammar = pathlib.Path(folder) / "initial.simeco"
+            grammar.write_bytes(emitted("lantana", "--kind", "initial"))
+            for other in (project, str(grammar)):
+                done = self.run_axil("compare", project, other, "--json")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                result = json.loads(done.stdout)
+                self.assertEqual((result["nodes"]["precision"], result["nodes"]["recall"]), (1, 1))
+                self.assertEqual(result["tree_edit_distance"], 0)
+
+    def test_wrong_input_is_named(self):
+        done = self.run_axil("compare", str(SOURCE / "samples/lantana/lantana.axil"), "/nowhere/at/all.axil")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("/nowhere/at/all.axil", done.stderr)
 
 
 if __name__ == "__main__":
