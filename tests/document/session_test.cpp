@@ -276,9 +276,11 @@ TEST_F(SessionTest, DerivedValuesAreMadeOnceForTheSameInputs) {
 
 TEST_F(SessionTest, TheLastGoodPlantStaysWhileThePresentOneIsInTrouble) {
   Session session = opened();
+  line(session, "add_node 500 front 5 5");
+  EXPECT_TRUE(session.skeleton().isCurrent()) << "a node of one view waits and troubles nobody";
   const auto good = session.skeleton().good;
   const auto text = session.grammarText(GrammarKind::Initial).good;
-  line(session, "add_node 500 front 5 5");
+  line(session, "add_click 500 right 2000 5900");
   const auto& shown = session.skeleton();
   ASSERT_TRUE(shown.trouble);
   EXPECT_NE(shown.trouble->message.find("500"), std::string::npos) << shown.trouble->message;
