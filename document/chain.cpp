@@ -72,6 +72,36 @@ std::map<std::string, skeleton3d::UnknownCameraHints> hintsOf(const OpenProject&
   return hints;
 }
 
+/// Snaps the clicks of all views that have a photo; cameras are known by now.
+Result<void> snapClicks(const OpenProject& open, const ChainOptions& options, Measured& result) {
+  options.watch.report("looking for the stems in the photos", 0.4);
+  skeleton3d::Photos photos;
+  for (const ProjectView& view : open.project.views) {
+    if (view.photo.empty()) continue;
+    auto photo = skeleton3d::readPhoto(photoPath(open, view));
+    if (!photo) return photo.failure();
+    photos[view.view.name] = *std::move(photo);
+  }
+  if (photos.empty()) return fail(ErrorCode::BadInput, "no view has a photo, so there is nothing that clicks could snap to; name the photos or measure without snapping");
+  auto snapping = skeleton3d::snapNodes(result.views, photos, result.nodes, stemsOf(open.project));
+  if (!snapping) return snapping.failure();
+  std::size_t clicks = 0, snapped = 0;
+  for (const auto& node : result.nodes) clicks += node.clicks.size();
+  for (const auto& node : snapping->nodes) snapped += node.snappedIn.size();
+  result.notes.push_back(std::to_string(snapped) + " of " + std::to_string(clicks) + " clicks were snapped to a stem's centre line; the others were kept as they are");
+  for (const auto& node : snapping->nodes)
+    for (auto& clicked : result.nodes)
+      if (clicked.id == node.id && !clicked.radius) clicked.radius = node.radius;
+  result.snapped = std::move(snapping->nodes);
+  return {};
+}
+
+Result<Measured> withSnapping(const OpenProject& open, const ChainOptions& options, Measured result) {
+  if (options.snap == Snap::Off) return result;
+  if (auto done = snapClicks(open, options, result); !done) return done.failure();
+  return result;
+}
+
 emit::EmitOptions emitOptionsOf(const Project& project, const ChainOptions& options) {
   emit::EmitOptions emitOptions;
   emitOptions.name = project.name;
@@ -112,7 +142,7 @@ Result<Measured> measured(const OpenProject& open, const ChainOptions& options) 
                                       [](const skeleton3d::View& view) { return view.camera.model == skeleton3d::CameraModel::Unknown; });
   if (!anyUnknown) {
     if (auto uncertainty = skeleton3d::uncertaintyOf(result.views, result.nodes)) result.uncertainty = *std::move(uncertainty);
-    return result;
+    return withSnapping(open, options, std::move(result));
   }
   options.watch.report("estimating the cameras", 0.2);
   auto cameras = skeleton3d::estimateCameras(result.views, hintsOf(open, focals), result.nodes, {.stems = stemsOf(open.project)});
@@ -123,7 +153,7 @@ Result<Measured> measured(const OpenProject& open, const ChainOptions& options) 
   result.suspects = std::move(cameras->suspects);
   result.uncertainty = std::move(cameras->uncertainty);
   result.notes = std::move(cameras->notes);
-  return result;
+  return withSnapping(open, options, std::move(result));
 }
 
 Result<skeleton3d::Skeleton> skeletonOf(const Project& project, const Measured& clicks, const ChainOptions& options) {
@@ -131,6 +161,7 @@ Result<skeleton3d::Skeleton> skeletonOf(const Project& project, const Measured& 
   auto skeleton = skeleton3d::buildSkeleton(clicks.views, clicks.nodes, stemsOf(project), options.solve, project.unit);
   if (!skeleton) return skeleton;
   *skeleton = skeleton3d::withUncertainty(*std::move(skeleton), clicks.uncertainty);
+  *skeleton = skeleton3d::withSnapped(*std::move(skeleton), clicks.views, clicks.nodes, clicks.snapped);
   if (project.leaves.empty()) return skeleton;
   const auto presets = presetsOf(project);
   if (!presets) return presets.failure();

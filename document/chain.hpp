@@ -17,6 +17,9 @@
 
 namespace axil::document {
 
+/// Whether clicks go to the centre lines of the stems in the photos (skeleton3d/snap.hpp), which also measures widths.
+enum class Snap { Off, On };
+
 struct ChainOptions {
   skeleton3d::SolveOptions solve = {};
   TurningRule turning = TurningRule::Exact;
@@ -25,6 +28,7 @@ struct ChainOptions {
   emit::StructureOptions structure = {};
   simeco::Limits limits = {};  ///< of growing the grammars
   Watch watch = {};
+  Snap snap = Snap::Off;
   /// How size and lens of a photo are found out; whoever asks often keeps the answers.
   std::function<Result<skeleton3d::PhotoInfo>(const std::filesystem::path&)> probePhoto = skeleton3d::probePhoto;
 };
@@ -47,6 +51,7 @@ struct Measured {
   std::vector<skeleton3d::SuspectClick> suspects;
   skeleton3d::Uncertainty uncertainty = {};         ///< of the nodes, from the scatter of their clicks and the cameras
   std::vector<std::string> notes = {};              ///< what a person should look at
+  std::vector<skeleton3d::SnappedNode> snapped = {};  ///< with Snap::On
 };
 [[nodiscard]] Result<Measured> measured(const OpenProject& open, const ChainOptions& options);
 
