@@ -145,8 +145,8 @@ glm::dvec2 corollaProfile(const FlowerShape& shape, double v, double reach) {
 
 /// Tube, throat and lobes as one thin surface that is closed at its foot. Its upper side is the inside.
 Part corollaOf(const FlowerShape& shape, Detail detail) {
-  const int perLobe = detail == Detail::Close ? 12 : detail == Detail::Medium ? 6 : 4;
-  const int rows = detail == Detail::Close ? 16 : detail == Detail::Medium ? 8 : 4;
+  const int perLobe = detail == Detail::Close ? 10 : detail == Detail::Medium ? 6 : 4;
+  const int rows = detail == Detail::Close ? 10 : detail == Detail::Medium ? 8 : 4;
   const int sides = perLobe * shape.petals;
   const auto pointAt = [&](double around, double v) {
     const double x = std::remainder(around * shape.petals / (2 * pi), 1.0) * 2;
@@ -193,7 +193,7 @@ Part sepalsOf(const FlowerShape& shape, Detail detail) {
 }
 
 Part tubeOf(const FlowerShape& shape, Detail detail) {
-  const int sides = detail == Detail::Close ? 16 : detail == Detail::Medium ? 8 : 4;
+  const int sides = detail == Detail::Close ? 12 : detail == Detail::Medium ? 8 : 4;
   const std::vector<glm::dvec2> profile{{shape.tubeRadius, 0},
                                         {0.5 * (shape.tubeRadius + 0.55 * shape.mouthRadius), 0.5 * shape.tube},
                                         {0.9 * shape.mouthRadius, 0.9 * shape.tube},
