@@ -36,7 +36,7 @@ const Shown<keywords::Traits>& Derived::traits(const Project& project) {
 }
 
 const Shown<Measured>& Derived::measured(const OpenProject& open) {
-  MeasuredInputs inputs{open.project.views, open.project.nodes, {}};
+  MeasuredInputs inputs{open.project.views, open.project.nodes, open.project.stems, {}};
   OpenProject usable = open;
   for (std::size_t i = 0; i < open.project.views.size(); ++i) {
     ProjectView view = open.project.views[i];

@@ -100,6 +100,7 @@ class Derived {
   struct MeasuredInputs {
     SharedList<ProjectView> views;
     SharedList<ProjectNode> nodes;
+    SharedList<ProjectStem> stems;  // they decide between clicks that could be wrong
     std::vector<FileStamp> photos;
     friend bool operator==(const MeasuredInputs&, const MeasuredInputs&) = default;
   };
