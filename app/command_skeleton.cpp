@@ -42,11 +42,12 @@ Result<void> writeReport(const document::OpenProject& open, const document::Meas
 }
 
 /// What a person should look at, on stderr: clicks that are left out first.
-void say(const document::Measured& clicks) {
+void say(const document::Measured& clicks, const skeleton3d::Skeleton& skeleton) {
   for (const auto& suspect : clicks.suspects)
     std::fprintf(stderr, "axil: suspect click: node %d in view %s, %.1f px off, wrong with a chance of %.0f %%\n", suspect.node.value, suspect.view.c_str(), suspect.off_px,
                  100 * suspect.chance);
   for (const std::string& note : clicks.notes) std::fprintf(stderr, "axil: note: %s\n", note.c_str());
+  for (const std::string& line : document::waitingLines(skeleton)) std::fprintf(stderr, "axil: note: %s\n", line.c_str());
 }
 
 int run(const SkeletonCommand& command) {
@@ -57,7 +58,7 @@ int run(const SkeletonCommand& command) {
   if (!clicks) return report(clicks.error());
   const auto skeleton = document::skeletonOf(open->project, *clicks, options);
   if (!skeleton) return report(skeleton.error());
-  say(*clicks);
+  say(*clicks, *skeleton);
   if (!command.report.empty())
     if (const auto written = writeReport(*open, *clicks, *skeleton, command.report); !written) return report(written.error());
   return print(document::skeletonText(*skeleton, clicks->suspects));

@@ -102,6 +102,16 @@ Result<Measured> withSnapping(const OpenProject& open, const ChainOptions& optio
   return result;
 }
 
+/// Leaves wait with the stem or the nodes that they are on.
+std::optional<quantify::LeafArrangement> onWhatIsPlaced(quantify::LeafArrangement leaves, const skeleton3d::Skeleton& skeleton) {
+  if (std::find(skeleton.waiting.begin(), skeleton.waiting.end(), leaves.stem) != skeleton.waiting.end()) return std::nullopt;
+  const bool atNodes = !leaves.at.empty();
+  std::erase_if(leaves.at, [&](skeleton3d::NodeId id) {
+    return std::any_of(skeleton.incomplete.begin(), skeleton.incomplete.end(), [&](const auto& node) { return node.id == id; });
+  });
+  return atNodes && leaves.at.empty() ? std::nullopt : std::optional(std::move(leaves));
+}
+
 emit::EmitOptions emitOptionsOf(const Project& project, const ChainOptions& options) {
   emit::EmitOptions emitOptions;
   emitOptions.name = project.name;
@@ -166,7 +176,8 @@ Result<skeleton3d::Skeleton> skeletonOf(const Project& project, const Measured& 
   const auto presets = presetsOf(project);
   if (!presets) return presets.failure();
   std::vector<quantify::LeafArrangement> leaves;
-  for (const ProjectLeaves& entry : project.leaves) leaves.push_back(entry.arrangement);
+  for (const ProjectLeaves& entry : project.leaves)
+    if (auto placed = onWhatIsPlaced(entry.arrangement, *skeleton)) leaves.push_back(std::move(*placed));
   return quantify::withLeaves(*skeleton, leaves, *presets);
 }
 

@@ -50,4 +50,14 @@ std::string skeletonText(const skeleton3d::Skeleton& skeleton, std::span<const s
   return jsonLines(json);
 }
 
+std::vector<std::string> waitingLines(const skeleton3d::Skeleton& skeleton) {
+  std::vector<std::string> lines;
+  for (const auto& node : skeleton.incomplete) {
+    std::string views;
+    for (const std::string& view : node.views) views += (views.empty() ? "" : ", ") + view;
+    lines.push_back("node " + std::to_string(node.id.value) + " waits: " + (views.empty() ? "it is not clicked" : "its clicks (" + views + ") give it no place") + "; click it in another view");
+  }
+  return lines;
+}
+
 }  // namespace axil::document

@@ -97,7 +97,7 @@ class Usage(Case):
 
     def test_bash_completion_completes(self):
         script = self.write("axil.bash", axil("completion", "bash")[1])
-        probe = f"source {script}; COMP_WORDS=(axil de); COMP_CWORD=1; _axil; echo ${{COMPREPLY[@]}}; COMP_WORDS=(axil emit --k); COMP_CWORD=2; _axil; echo ${{COMPREPLY[@]}}"
+        probe = f"source {script}; COMP_WORDS=(axil der); COMP_CWORD=1; _axil; echo ${{COMPREPLY[@]}}; COMP_WORDS=(axil emit --k); COMP_CWORD=2; _axil; echo ${{COMPREPLY[@]}}"
         out = subprocess.run(["bash", "-c", probe], capture_output=True, text=True).stdout.split()
         self.assertEqual(out, ["derive", "--kind"])
 
@@ -173,7 +173,11 @@ class Projects(Case):
 
     def test_node_clicked_once(self):
         def change(p): p["nodes"][4]["clicks"] = {"front": p["nodes"][4]["clicks"]["front"]}
-        self.refuse(change, f"node {self.project['nodes'][4]['id']}")
+        node = self.project["nodes"][4]["id"]
+        status, out, err = axil("skeleton", self.changed(change))
+        self.assertEqual(status, 0, err)
+        self.assertIn(f"node {node} waits", err)
+        self.assertEqual([waiting["id"] for waiting in json.loads(out)["incomplete"]], [node])
 
     def test_click_outside_the_photo(self):
         self.refuse(lambda p: p["nodes"][4]["clicks"].update(front=[5000, 10]), f"node {self.project['nodes'][4]['id']}", "front")

@@ -95,7 +95,7 @@ TEST(Arrangement, TheStemShowsTheDivergenceOfTheWord) {
   for (const std::string name : {"distichous", "decussate", "spiral"}) {
     const keywords::ArrangementPreset preset = *keywords::arrangementNamed(name);
     const auto leaves = organsOf(grown(arrangementGrammar(preset)), OrganKind::Leaf);
-    ASSERT_GE(leaves.size(), 8u) << name;
+    ASSERT_GE(leaves.size(), 6u) << name;
     const auto azimuth = [](const simeco::Organ& leaf) { return std::atan2(leaf.direction.unit().z, leaf.direction.unit().x); };
     const double turned = std::remainder(azimuth(leaves[static_cast<std::size_t>(preset.leavesPerNode)]) - azimuth(leaves[0]), 2 * std::numbers::pi);
     // Either way round: which way a positive turn goes is the turtle's business; decussate pairs look the same half a turn on.

@@ -169,7 +169,7 @@ TEST(Obstacles, AreDrawnBesideThePlantAndBelongToNoOrgan) {
 
 TEST(Obstacles, ThePictureMakesRoomForANearOneAndNotForAWall) {
   const PlantMesh plant = meshOf(test::straightStem(3, 0.3, 0.01)).value();
-  const auto framed = obstaclesToFrame(plant, {simeco::SphereObstacle{{{0.2, 0.2, 0}}, 0.1}, simeco::BoxObstacle{{{-50, 0, -1}}, {{50, 1, -0.5}}}});
+  const auto framed = obstaclesToFrame(plant, {simeco::SphereObstacle{{{0.2, 0.2, 0}}, 0.05}, simeco::BoxObstacle{{{-50, 0, -1}}, {{50, 1, -0.5}}}});
   EXPECT_EQ(framed.size(), 1u);
 }
 
