@@ -66,7 +66,7 @@ void PhotoTiles::forgetOldest() {
   }
 }
 
-const PhotoTiles::Tile* PhotoTiles::tile(Place place) {
+const PhotoTiles::Tile* PhotoTiles::tile(Place place, double zoom) {
   auto found = tiles_.find(place);
   if (found == tiles_.end()) {
     // The smallest level stands in for all others: it never waits.
@@ -79,6 +79,8 @@ const PhotoTiles::Tile* PhotoTiles::tile(Place place) {
     send(place, found->second);
   }
   found->second.used = ++clock_;
+  constexpr double kPixelsShow = 3;  // from here on a photo's pixels are seen as such, to be clicked exactly
+  found->second.texture.magnify(zoom > kPixelsShow ? Texture::Magnified::Pixels : Texture::Magnified::Smooth);
   return &found->second;
 }
 
@@ -102,13 +104,13 @@ std::vector<PhotoTiles::Piece> PhotoTiles::pieces(glm::dvec2 low, glm::dvec2 hig
   const int level = std::clamp(static_cast<int>(std::floor(std::log2(1 / std::max(zoom, 1e-6)))), 0, last);
   const Photo& shown = levels_[static_cast<std::size_t>(level)];
   const double scale = std::exp2(level);
-  if (const Tile* base = tile({last, 0, 0})) pieces.push_back(pieceOf({last, 0, 0}, *base));
+  if (const Tile* base = tile({last, 0, 0}, zoom)) pieces.push_back(pieceOf({last, 0, 0}, *base));
   if (level == last) return pieces;
   const auto first = [&](double px) { return std::max(0, static_cast<int>(std::floor(px / kTile))); };
   const auto final = [&](double px, int side) { return std::min((side - 1) / kTile, static_cast<int>(std::floor(px / kTile))); };
   for (int row = first(low.y / scale); row <= final(high.y / scale, shown.height); ++row)
     for (int column = first(low.x / scale); column <= final(high.x / scale, shown.width); ++column)
-      if (const Tile* here = tile({level, column, row})) pieces.push_back(pieceOf({level, column, row}, *here));
+      if (const Tile* here = tile({level, column, row}, zoom)) pieces.push_back(pieceOf({level, column, row}, *here));
   forgetOldest();
   return pieces;
 }

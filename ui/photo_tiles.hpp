@@ -55,7 +55,7 @@ class PhotoTiles {
     Texture texture;
     std::uint64_t used = 0;
   };
-  const Tile* tile(Place place);
+  const Tile* tile(Place place, double zoom);
   void send(Place place, Tile& tile);
   void forgetOldest();
   [[nodiscard]] static Piece pieceOf(Place place, const Tile& tile);

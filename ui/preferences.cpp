@@ -42,7 +42,6 @@ void readLine(Preferences& preferences, std::string_view line) {
   if (key == "right") readNumber(preferences.layout.right, value);
   if (key == "across") readNumber(preferences.layout.across, value);
   if (key == "down") readNumber(preferences.layout.down, value);
-  if (key == "toured") preferences.toured = value == "yes";
   if (key == "recent" && !value.empty() && preferences.recent.size() < kMostRecent) preferences.recent.emplace_back(value);
 }
 
@@ -64,7 +63,6 @@ std::string print(const Preferences& preferences) {
   line("right", number(preferences.layout.right));
   line("across", number(preferences.layout.across));
   line("down", number(preferences.layout.down));
-  line("toured", preferences.toured ? "yes" : "no");
   for (const fs::path& project : preferences.recent)
     if (project.string().find('\n') == std::string::npos) line("recent", project.string());
   return text;

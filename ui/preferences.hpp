@@ -31,7 +31,6 @@ struct Preferences {
   std::optional<Language> language;
   std::optional<float> scale;
   Layout layout;
-  bool toured = false;                        ///< the guided tour has been seen or put off
   std::vector<std::filesystem::path> recent;  ///< projects, the latest first; at most kMostRecent
   friend bool operator==(const Preferences&, const Preferences&) = default;
 };

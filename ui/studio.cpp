@@ -217,7 +217,6 @@ struct Studio::Inside {
       if (!mayLeave(wish)) return;
       if (const auto opened = open(sample); !opened) return fail(opened.error());
     }
-    state.preferences.toured = true;
     state.tour = 0;
   }
 

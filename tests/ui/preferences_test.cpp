@@ -13,7 +13,6 @@ TEST(Preferences, AreReadBackAsTheyWereWritten) {
   preferences.language = Language::TraditionalChinese;
   preferences.scale = 1.5f;
   preferences.layout = {310, 240, 0.4f, 0.6f};
-  preferences.toured = true;
   rememberProject(preferences, "/plants/a.axil");
   rememberProject(preferences, "/plants/馬櫻丹.axil");
   rememberProject(preferences, "/plants/a.axil");
