@@ -231,11 +231,11 @@ struct HeadlessStudio::Inside {
     frame();
     return {};
   }
-  Result<void> dragBorder(const Words& w) {
+  Result<void> pull(const Words& w) {
     const auto place = studio->state().landmarks.find(w[0]);
     const auto dx = parseNumber(w[1]), dy = parseNumber(w[2]);
     if (place == studio->state().landmarks.end()) return fail(ErrorCode::NotFound, "nothing is called " + w[0]);
-    if (!dx || !dy) return fail(ErrorCode::BadInput, "ui drag_border takes two numbers");
+    if (!dx || !dy) return fail(ErrorCode::BadInput, "ui pull takes two numbers");
     const auto [x, y, width, height] = place->second;
     const ImVec2 from{x + width / 2, y + height / 4};
     dragTo(from, {from.x + static_cast<float>(*dx), from.y + static_cast<float>(*dy)}, 0);
@@ -360,7 +360,7 @@ struct HeadlessStudio::Inside {
       std::function<Result<void>(Inside&, const Words&)> act;
     };
     static const std::map<std::string, Row> kRows = {
-        {"click", {3, &Inside::click}}, {"shift_click", {3, &Inside::shiftClick}}, {"menu", {3, &Inside::menu}}, {"drag_border", {3, &Inside::dragBorder}}, {"move", {3, &Inside::move}}, {"drag", {5, &Inside::drag}}, {"wheel", {4, &Inside::wheel}}, {"pan", {3, &Inside::pan}},
+        {"click", {3, &Inside::click}}, {"shift_click", {3, &Inside::shiftClick}}, {"menu", {3, &Inside::menu}}, {"pull", {3, &Inside::pull}}, {"move", {3, &Inside::move}}, {"drag", {5, &Inside::drag}}, {"wheel", {4, &Inside::wheel}}, {"pan", {3, &Inside::pan}},
         {"press", {1, &Inside::press}}, {"key", {1, &Inside::key}}, {"frames", {1, &Inside::frames}}, {"way", {1, &Inside::way}}, {"theme", {1, &Inside::theme}},
         {"language", {1, &Inside::language}}, {"scale", {1, &Inside::scale}}, {"time", {1, &Inside::time}}, {"orbit", {3, &Inside::orbit}}, {"screenshot", {1, &Inside::screenshot}},
         {"wait", {0, [](Inside& in, const Words&) { return in.wait(); }}}};

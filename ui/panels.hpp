@@ -64,7 +64,7 @@ void wayPanel(const Panel& panel);
 /// The views' places in the panes: front, right and top first, others where a place is free; -1: none.
 [[nodiscard]] std::array<int, 3> viewsOfPanes(const document::Project& project);
 [[nodiscard]] Taken photoPane(const Panel& panel, int pane, Area area);
-void plantPane(const Panel& panel, Area area);
+[[nodiscard]] Taken plantPane(const Panel& panel, Area area);
 [[nodiscard]] Taken descriptionText(const Panel& panel, Area area);
 [[nodiscard]] Taken grammarText(const Panel& panel, Area area);
 void welcome(const Panel& panel, Area area);

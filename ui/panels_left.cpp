@@ -542,6 +542,10 @@ Taken growPanel(const Panel& panel) {
     if (choice(panel, kKinds[i], panel.state.kind == static_cast<document::GrammarKind>(i), -1)) panel.state.kind = static_cast<document::GrammarKind>(i);
   const auto* grown = panel.following.grammar(panel.state.kind);
   if (grown != nullptr && grown->trouble) say(panel, NoticeKind::Failed, grown->trouble->message);
+  if (panel.state.kind == document::GrammarKind::Predictive) {
+    ImGui::Checkbox(panel.t("tint_predicted"), &panel.state.tintPredicted);
+    landmark(panel, "tint_predicted");
+  }
   gap(panel, 8);
   heading(panel, "seed");
   ImGui::SetNextItemWidth(-1);

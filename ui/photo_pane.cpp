@@ -224,7 +224,10 @@ std::optional<Seen> seen(const Pane& pane, NodeId id) {
   if (const auto click = clicks.find(pane.name()); click != clicks.end()) {
     const auto& drag = pane.state().drag;
     const bool moves = drag && drag->moved && drag->view == pane.name() && (drag->node == id || pane.state().selection.has(id));
-    return Seen{{click->second.px + (moves ? drag->moved_px() : glm::dvec2(0, 0))}};
+    if (moves) return Seen{{click->second.px + drag->moved_px()}};
+    const auto& inSpace = pane.state().plantDrag;
+    const skeleton3d::Camera* camera = inSpace && inSpace->moved && inSpace->node == id ? cameraOf(pane.panel, pane.name()) : nullptr;
+    return Seen{{click->second.px + (camera != nullptr ? inSpace->moved_px(*camera) : glm::dvec2(0, 0))}};
   }
   const skeleton3d::Camera* camera = cameraOf(pane.panel, pane.name());
   const skeleton3d::Node* solved = solvedNode(pane.panel, id);

@@ -55,6 +55,7 @@ void drawSkeleton(const View3d& view) {
   if (const skeleton3d::Node* node = nodeWith(*shown.good, *view.panel.state.selection.node)) {
     view.list.AddCircle(view.onScreen(node->position), view.panel.px(8), rgb(0x000000, 170), 24, view.panel.px(4));
     view.list.AddCircle(view.onScreen(node->position), view.panel.px(8), rgb(0xFFFFFF), 24, view.panel.px(2));
+    view.panel.state.landmarks["selected_in_space"] = {view.onScreen(node->position).x, view.onScreen(node->position).y, 0, 0};
   }
 }
 
@@ -87,19 +88,75 @@ void pickSegment(const View3d& view, const skeleton3d::Skeleton& skeleton) {
     }
 }
 
-void pick(const View3d& view) {
+/// The clicked node under the mouse.
+const skeleton3d::Node* nodeUnderMouse(const View3d& view) {
   const auto& skeleton = view.panel.following.skeleton.good;
-  if (!skeleton) return;
+  if (!skeleton) return nullptr;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const skeleton3d::Node* found = nullptr;
   float best = view.panel.px(10);
   for (const skeleton3d::Node& node : skeleton->nodes) {
     const ImVec2 at = view.onScreen(node.position);
     const float distance = std::hypot(at.x - mouse.x, at.y - mouse.y);
     if (distance > best || !document::nodeWithId(view.panel.project, node.id)) continue;
     best = distance;
-    view.panel.state.selection = {.node = node.id, .others = {}};
+    found = &node;
   }
-  if (best == view.panel.px(10)) pickSegment(view, *skeleton);
+  return found;
+}
+
+void pick(const View3d& view) {
+  const auto& skeleton = view.panel.following.skeleton.good;
+  if (!skeleton) return;
+  if (const skeleton3d::Node* node = nodeUnderMouse(view)) view.panel.state.selection = {.node = node->id, .others = {}};
+  else pickSegment(view, *skeleton);
+}
+
+// ---- dragging a node in space ----------------------------------------------------------------------------------------------
+
+/// A press on a node may become a drag: not while an older plant is shown, whose nodes stand elsewhere.
+void pressed(const View3d& view) {
+  UiState& state = view.panel.state;
+  if (state.way != Way::Stems || !state.showSkeleton || state.grammarDraft || isPast(view.panel)) return;
+  if (const skeleton3d::Node* node = nodeUnderMouse(view)) state.plantDrag = PlantDrag{.node = node->id, .from = node->position, .at = node->position};
+}
+
+/// The node follows the mouse in the plane through where it was that faces the eye.
+void moved(const View3d& view) {
+  UiState& state = view.panel.state;
+  if (!state.plantDrag || !ImGui::IsMouseDragging(0, view.panel.px(3))) return;
+  PlantDrag& drag = *state.plantDrag;
+  const ImVec2 by = ImGui::GetMouseDragDelta(0, 0);
+  const PhotoPoint target{skeleton3d::project(view.camera, drag.from).px + glm::dvec2(by.x, by.y)};
+  const skeleton3d::Ray ray = skeleton3d::rayThrough(view.camera, target);
+  const glm::dvec3 towards = glm::transpose(view.camera.rotation)[2];
+  const double ahead = glm::dot(ray.direction.unit(), towards);
+  if (std::abs(ahead) < 1e-9) return;
+  drag.at = {ray.origin.at + ray.direction.unit() * (glm::dot(drag.from.at - ray.origin.at, towards) / ahead)};
+  drag.moved = true;
+  state.selection = {.node = drag.node, .others = {}};
+}
+
+/// The clicks of the node go where its new place is seen, in every photo whose camera is known.
+Taken dropped(const Panel& panel, const PlantDrag& drag) {
+  const auto place = document::nodeWithId(panel.project, drag.node);
+  if (!place || !drag.moved || !panel.following.measured.good) return std::nullopt;
+  const auto& clicks = panel.project.nodes[*place].node.clicks;
+  document::Step step;
+  for (const skeleton3d::View& view : panel.following.measured.good->views)
+    if (const auto click = clicks.find(view.name); click != clicks.end() && view.camera.model != skeleton3d::CameraModel::Unknown)
+      step.emplace_back(document::MoveClick{drag.node, view.name, {click->second.px + drag.moved_px(view.camera)}});
+  return step.empty() ? Taken{} : Taken{std::move(step)};
+}
+
+void drawDrag(const View3d& view) {
+  const auto& drag = view.panel.state.plantDrag;
+  if (!drag || !drag->moved) return;
+  const auto stem = stemOf(view.panel.project, drag->node);
+  const Colour colour = stem ? colourOf(*stem) : rgb(0xFFFFFF);
+  dashed(view.list, view.onScreen(drag->from), view.onScreen(drag->at), colour, view.panel.px(2), view.panel.px(6));
+  view.list.AddCircleFilled(view.onScreen(drag->at), view.panel.px(5), colour, 20);
+  view.list.AddCircle(view.onScreen(drag->at), view.panel.px(8), rgb(0xFFFFFF), 24, view.panel.px(2));
 }
 
 void turn(const View3d& view, bool hovered, bool active) {
@@ -107,7 +164,7 @@ void turn(const View3d& view, bool hovered, bool active) {
   Orbit& orbit = view.panel.state.orbit;
   view.panel.state.turningPlant = active && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || view.panel.state.turningPlant);
   if (hovered && io.MouseWheel != 0) orbit.zoom = std::clamp(orbit.zoom * std::pow(1.15, io.MouseWheel), 0.1, 40.0);
-  if (!active) return;
+  if (!active || view.panel.state.plantDrag) return;
   if (ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2)) {
     orbit.shift += glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) / static_cast<double>(view.area.height);
     return;
@@ -127,7 +184,7 @@ void overlayButtons(const Panel& panel, Area area) {
 
 }  // namespace
 
-void plantPane(const Panel& panel, Area area) {
+Taken plantPane(const Panel& panel, Area area) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 low{area.x, area.y}, high{area.x + area.width, area.y + area.height};
   list.AddRectFilled(low, high, panel.palette.photo, panel.px(4));
@@ -146,20 +203,26 @@ void plantPane(const Panel& panel, Area area) {
     const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, area.width * 0.8f);
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {area.x + (area.width - size.x) / 2, area.y + (area.height - size.y) / 2}, panel.palette.quiet, text, nullptr, area.width * 0.8f);
     ImGui::PopID();
-    return;
+    return std::nullopt;
   }
   view.camera = orbitCamera(panel.state.orbit, grown->middle, grown->reach, panel.state.plantPaneSize);
-  if (ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(0)) {
-    const ImVec2 moved = ImGui::GetMouseDragDelta(0, 0);
-    if (std::hypot(moved.x, moved.y) < panel.px(4)) pick(view);
+  if (ImGui::IsItemActivated() && ImGui::IsMouseDown(0)) pressed(view);
+  if (active) moved(view);
+  Taken taken;
+  if (ImGui::IsItemDeactivated()) {
+    const ImVec2 by = ImGui::GetMouseDragDelta(0, 0);
+    const auto drag = std::exchange(panel.state.plantDrag, std::nullopt);
+    if (drag && drag->moved) taken = dropped(panel, *drag);
+    else if (ImGui::IsMouseReleased(0) && std::hypot(by.x, by.y) < panel.px(4)) pick(view);
   }
-  if (hovered) panel.state.status = panel.t("click_plant");
+  if (hovered) panel.state.status = panel.t(panel.state.way == Way::Stems ? "click_plant_stems" : "click_plant");
   list.PushClipRect(low, high, true);
   if (panel.state.showPlant && panel.plantPicture.id() != 0)
     list.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(panel.plantPicture.id())), low, high, {0, 0}, {1, 1},
                          isPast(panel) || isStale(panel) ? rgb(0xFFFFFF, 120) : rgb(0xFFFFFF), panel.px(4));
   drawGhosts(view);
   if (panel.state.showSkeleton && !panel.state.grammarDraft) drawSkeleton(view);
+  drawDrag(view);
   ImGui::PushFont(font(Face::Small));
   const float pad = panel.px(7);
   const float width = chip(list, {area.x + pad, area.y + pad}, std::string("4  ") + panel.t("view_plant"), withAlpha(panel.palette.panel, 225), panel.palette.text, pad);
@@ -176,6 +239,7 @@ void plantPane(const Panel& panel, Area area) {
   }
   list.PopClipRect();
   ImGui::PopID();
+  return taken;
 }
 
 }  // namespace axil::ui

@@ -1,5 +1,6 @@
 #include "ui/plant_picture.hpp"
 
+#include "render/highlight.hpp"
 #include "render/picture.hpp"
 #include "skeleton3d/camera.hpp"
 
@@ -9,6 +10,17 @@
 
 namespace axil::ui {
 namespace {
+
+/// Which organs were not there yet when the plant was measured.
+std::vector<bool> bornAfter(const simeco::Plant& plant, double time) {
+  std::vector<bool> later(plant.organs.size());
+  const double least = 1e-6 * std::max(1.0, time);
+  for (std::size_t i = 0; i < later.size(); ++i) later[i] = plant.time - plant.organs[i].age > time + least;
+  return later;
+}
+
+/// A cool blue beside all that is green and brown.
+constexpr render::Highlight kPredicted{.colour = {0.10f, 0.28f, 0.85f}, .share = 0.55f};
 
 /// A painter with the mesh it drew last, since a turning plant is one mesh.
 class Draw {
@@ -35,14 +47,16 @@ class Draw {
   }
 
   Result<void> mesh(const PlantQuestion& question) {
-    if (mesh_ && grown_ && &grown_->data() == &question.growth.data() && time_ == question.time) return {};
+    if (mesh_ && grown_ && &grown_->data() == &question.growth.data() && time_ == question.time && measuredUntil_ == question.measuredUntil) return {};
     const auto plant = simeco::plantAt(question.growth, question.time);
     if (!plant) return plant.failure();
     auto made = render::meshOf(*plant);
     if (!made) return made.failure();
+    if (question.measuredUntil && question.time > *question.measuredUntil) *made = render::highlighted(std::move(*made), bornAfter(*plant, *question.measuredUntil), kPredicted);
     mesh_ = std::make_unique<render::PlantMesh>(std::move(*made));
     grown_ = question.growth;
     time_ = question.time;
+    measuredUntil_ = question.measuredUntil;
     return {};
   }
 
@@ -50,6 +64,7 @@ class Draw {
   std::unique_ptr<render::PlantMesh> mesh_;
   std::optional<simeco::Growth> grown_;
   double time_ = -1;
+  std::optional<double> measuredUntil_;
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ struct PlantQuestion {
   double time = 0;
   skeleton3d::Camera camera;
   glm::ivec2 size_px{0, 0};
+  std::optional<double> measuredUntil = {};  ///< what is born later is predicted, and tinted
 };
 
 struct PlantPicture {

@@ -88,8 +88,7 @@ Taken leftColumn(const Panel& panel) {
 
 Taken pane(const Panel& panel, int number, Area area) {
   if (number < 3) return photoPane(panel, number, area);
-  plantPane(panel, area);
-  return std::nullopt;
+  return plantPane(panel, area);
 }
 
 /// A border between two parts that can be dragged; gives how far, in px at scale 1.
@@ -138,18 +137,17 @@ Taken centre(const Panel& panel, Area area) {
   switch (panel.state.way) {
     case Way::Describe: {
       Taken taken = descriptionText(panel, left);
-      plantPane(panel, right);
+      if (Taken moved = plantPane(panel, right)) taken = std::move(moved);
       return taken;
     }
     case Way::Grammar: {
       const bool wide = panel.state.sideBySide && !panel.state.grammarDraft;
       Taken taken = grammarText(panel, wide ? area : left);
-      if (!wide) plantPane(panel, right);
+      if (wide) return taken;
+      if (Taken moved = plantPane(panel, right)) taken = std::move(moved);
       return taken;
     }
-    case Way::Grow:
-      plantPane(panel, area);
-      return std::nullopt;
+    case Way::Grow: return plantPane(panel, area);
     case Way::Photos:
     case Way::Stems:
     case Way::Leaves: return quadrants(panel, area);

@@ -7,6 +7,7 @@
 #include "document/chain.hpp"
 #include "document/command.hpp"
 #include "simeco/environment.hpp"
+#include "skeleton3d/camera.hpp"
 #include "skeleton3d/snap.hpp"
 #include "ui/clicking.hpp"
 #include "ui/preferences.hpp"
@@ -51,6 +52,19 @@ struct NodeDrag {
   bool moved = false;
 
   [[nodiscard]] glm::dvec2 moved_px() const { return at.px - grabbed.px; }
+};
+
+/// A node on its way to another place in space, in the plane through it that faces the eye.
+struct PlantDrag {
+  document::NodeId node;
+  PlantPoint from;
+  PlantPoint at;
+  bool moved = false;
+
+  /// How far its click moves in a photo of this camera.
+  [[nodiscard]] glm::dvec2 moved_px(const skeleton3d::Camera& camera) const {
+    return skeleton3d::project(camera, at).px - skeleton3d::project(camera, from).px;
+  }
 };
 
 /// Nodes on their way into the selection: a box from corner to corner, or all that a line drawn by hand goes round. In px of the photo.
@@ -175,6 +189,7 @@ struct UiState {
 
   Selection selection;
   std::optional<NodeDrag> drag;
+  std::optional<PlantDrag> plantDrag;
   std::optional<Band> band;
   std::optional<Pick> pick;
   std::optional<PlaceMenu> menu;
@@ -202,6 +217,7 @@ struct UiState {
   glm::ivec2 plantPaneSize{0, 0};  ///< as drawn; 0, 0 where it is not shown
   bool showSkeleton = true;
   bool showPlant = true;
+  bool tintPredicted = true;       ///< what is not measured stands out
 
   document::GrammarKind kind = document::GrammarKind::Predictive;  ///< which grammar is shown and grown
   double time = -1;                                                ///< below 0: when all is grown

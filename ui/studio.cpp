@@ -340,6 +340,13 @@ struct Studio::Inside {
     tell(NoticeKind::Said, filled(t("exported"), {{"folder", answer.folder.string()}}));
   }
 
+  /// When what is shown goes beyond the measured plant, if that is to be seen.
+  [[nodiscard]] std::optional<double> measuredUntil() const {
+    const auto* measured = following->grammar(document::GrammarKind::Initial);
+    if (!state.tintPredicted || state.kind != document::GrammarKind::Predictive || state.grammarDraft || measured == nullptr) return std::nullopt;
+    return measured->end;
+  }
+
   /// Asks for the plant as it should look now, unless it looks so already. A turning plant is drawn small, to keep up.
   void askForPlant() {
     const auto* grown = shown();
@@ -348,7 +355,8 @@ struct Studio::Inside {
     PlantQuestion question{*grown->growth, state.time < 0 ? grown->end : std::min(state.time, grown->end), {}, {}};
     question.size_px = glm::max(glm::ivec2(glm::dvec2(state.plantPaneSize) * factor), glm::ivec2(16));
     question.camera = resized(orbitCamera(state.orbit, grown->middle, grown->reach, state.plantPaneSize), factor);
-    const bool same = drawn && &drawn->growth.data() == &question.growth.data() && drawn->time == question.time && drawn->camera == question.camera && drawn->size_px == question.size_px;
+    question.measuredUntil = measuredUntil();
+    const bool same = drawn && &drawn->growth.data() == &question.growth.data() && drawn->time == question.time && drawn->measuredUntil == question.measuredUntil && drawn->camera == question.camera && drawn->size_px == question.size_px;
     if (same || drawer.working()) return;
     drawn = question;
     drawer.ask(std::move(question));

@@ -2,6 +2,7 @@
 
 #include "render/colour.hpp"
 #include "render/flat_mesh.hpp"
+#include "render/highlight.hpp"
 #include "render/known_plants.hpp"
 
 #include <gtest/gtest.h>
@@ -45,6 +46,27 @@ TEST(PlantMesh, ALeafStandsAtItsBaseAndReachesItsTip) {
     high = std::max(high, p.x * at.scale.x);
   }
   EXPECT_NEAR(high - low, 0.024, 1e-6);  // twice the organ's radius
+}
+
+TEST(PlantMesh, HighlightedOrgansKeepTheirTrianglesAndChangeTheirColour) {
+  const simeco::Plant plant = test::shrub(2);
+  const PlantMesh plain = meshOf(plant).value();
+  std::vector<bool> chosen(plant.organs.size(), false);
+  for (std::size_t i = chosen.size() / 2; i < chosen.size(); ++i) chosen[i] = true;
+  const PlantMesh changed = highlighted(plain, chosen, {.colour = {0, 0, 1}, .share = 1});
+  EXPECT_EQ(changed.triangleCount(), plain.triangleCount());
+  EXPECT_EQ(changed.stems.triangles, plain.stems.triangles);
+  std::size_t blue = 0, placed = 0;
+  for (const OrganModel& model : changed.models)
+    for (const Placement& placement : model.placements) {
+      ++placed;
+      const bool isBlue = changed.materials[static_cast<std::size_t>(model.parts[0].material)].colour == glm::vec3(0, 0, 1);
+      EXPECT_EQ(isBlue, chosen[static_cast<std::size_t>(placement.organ.value)]);
+      blue += isBlue ? 1 : 0;
+    }
+  EXPECT_GT(blue, 0u);
+  EXPECT_LT(blue, placed);
+  EXPECT_EQ(highlighted(plain, {}, {.colour = {0, 0, 1}, .share = 1}), plain);
 }
 
 TEST(PlantMesh, LeavesThatLookTheSameShareAModel) {

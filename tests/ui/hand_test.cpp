@@ -102,6 +102,22 @@ TEST(Hand, AClickBesideAStemGoesToItsCentreLineUnlessSnappingIsOff) {
   EXPECT_NEAR(clickOf(headless, 18, "front").px.x, middle.x + 6, 2.5) << "the mouse stands on whole pixels of the screen";
 }
 
+TEST(Hand, ANodeDraggedInSpaceMovesItsClicksInEveryPhotoAsOneStep) {
+  HeadlessStudio headless = opened();
+  run(headless, "ui wait\nui way stems\nui orbit 0 0 1\nui press stem_2\nui wait\n");
+  const int node = headless.studio().state().selection.node.value().value;
+  const PhotoPoint front = clickOf(headless, node, "front"), right = clickOf(headless, node, "right");
+  const std::size_t steps = headless.studio().session().history().entries().size();
+  run(headless, "ui pull selected_in_space 30 0\nui wait\n");
+  EXPECT_EQ(headless.studio().session().history().entries().size(), steps + 1);
+  // Looked at from the front, a pull to the right is one to the right in the front photo and none across the right one.
+  EXPECT_GT(clickOf(headless, node, "front").px.x - front.px.x, 20);
+  EXPECT_LT(std::abs(clickOf(headless, node, "front").px.y - front.px.y), 12);
+  EXPECT_LT(std::abs(clickOf(headless, node, "right").px.x - right.px.x), 30);
+  run(headless, "ui key ctrl+z\n");
+  EXPECT_EQ(clickOf(headless, node, "front").px, front.px);
+}
+
 TEST(Hand, ThePaletteDoesWhatItsNameSays) {
   HeadlessStudio headless = opened();
   run(headless, "ui wait\nui key ctrl+k\nui type light\nui key enter\n");
@@ -114,7 +130,7 @@ TEST(Hand, ThePaletteDoesWhatItsNameSays) {
 TEST(Hand, ABorderThatIsDraggedGivesRoom) {
   HeadlessStudio headless = opened();
   const float before = headless.studio().state().preferences.layout.left;
-  run(headless, "ui wait\nui drag_border border_left 60 0\n");
+  run(headless, "ui wait\nui pull border_left 60 0\n");
   EXPECT_NEAR(headless.studio().state().preferences.layout.left, before + 60, 2);
 }
 
