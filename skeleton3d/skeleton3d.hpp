@@ -22,6 +22,7 @@
 #include "skeleton3d/estimate.hpp"  // cameras nobody calibrated
 #include "skeleton3d/calibrate.hpp"  // a lens from photos of a chessboard
 #include "skeleton3d/guides.hpp"    // where a click of one view can be in another
+#include "skeleton3d/live_wire.hpp"  // the way along a stem while the mouse moves
 #include "skeleton3d/snap.hpp"      // a click onto its stem's centre line
 #include "skeleton3d/snap_place.hpp"  // snapped clicks to nodes and radii
 #include "skeleton3d/width.hpp"     // widths to radii, tapers
