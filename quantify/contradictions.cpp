@@ -99,7 +99,7 @@ void compareRange(const Traits& statements, const std::vector<double>& values, d
     const double high = t.maximum.value_or(*t.high) * perUnit;
     if (spread.mean >= low * (1 - slackLow) - slackHigh && spread.mean <= high * (1 + slackLow) + slackHigh) return;  // one of them fits
   }
-  found.push_back(against(statements.front(), "measured " + what + " " + rounded(spread.mean / perUnit) + " ± " + rounded(spread.deviation / perUnit) + " " + unit));
+  found.push_back(against(statements.front(), what + " " + rounded(spread.mean / perUnit) + " ± " + rounded(spread.deviation / perUnit) + " " + unit));
 }
 
 double metresPer(const std::string& unit) {
@@ -123,7 +123,7 @@ void compareLengths(const Traits& said, const Measurements& measurements, std::v
   std::vector<double> lengths;
   for (const LeafMeasure* leaf : leavesOf(measurements))
     if (leaf->length > 0) lengths.push_back(leaf->length);
-  compareRange(statements, lengths, kLengthSlack, 0, metresPer(statements.front().unit) / ours, "leaf length", statements.front().unit, found);
+  compareRange(statements, lengths, kLengthSlack, 0, metresPer(statements.front().unit) / ours, "measured leaf length", statements.front().unit, found);
 }
 
 void compareAngles(const Traits& said, const Measurements& measurements, std::vector<PhotoContradiction>& found) {
@@ -132,8 +132,8 @@ void compareAngles(const Traits& said, const Measurements& measurements, std::ve
   for (const LeafMeasure* leaf : leavesOf(measurements)) leafAngles.push_back(leaf->rotr.degrees());
   for (const Segment& segment : measurements.segments)
     if (segment.kind == SegmentKind::Branch) branchAngles.push_back(segment.rotr.degrees());
-  compareRange(statementsOf(said, "leaf", "angle"), leafAngles, 0, kAngleSlack_deg, 1, "angle of the leaves to their stem", "degrees", found);
-  compareRange(statementsOf(said, "branch", "angle"), branchAngles, 0, kAngleSlack_deg, 1, "angle of the branches to their stem", "degrees", found);
+  compareRange(statementsOf(said, "leaf", "angle"), leafAngles, 0, kAngleSlack_deg, 1, "measured angle of the leaves to their stem", "degrees", found);
+  compareRange(statementsOf(said, "branch", "angle"), branchAngles, 0, kAngleSlack_deg, 1, "measured angle of the branches to their stem", "degrees", found);
 }
 
 }  // namespace

@@ -161,6 +161,7 @@ constexpr Action kActions[] = {
     {"key_fit", "F", {GLFW_KEY_F}, always, fit},
     {"key_loupe", "L", {GLFW_KEY_L}, always, toggle<&UiState::loupe>},
     {"key_snap", "S", {GLFW_KEY_S}, always, toggle<&UiState::snap>},
+    {"key_trace", "W", {GLFW_KEY_W}, always, toggle<&UiState::trace>},
     {"key_skeleton", "K", {GLFW_KEY_K}, always, toggle<&UiState::showSkeleton>},
     {"key_plant", "G", {GLFW_KEY_G}, always, toggle<&UiState::showPlant>},
     {"key_play", "P", {GLFW_KEY_P}, hasPlant, play},

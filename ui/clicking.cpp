@@ -45,23 +45,22 @@ ClickMeaning place(const Project& project, NodeId node, const PhotoClick& click)
   return {ClickKind::Place, Step{document::AddClick{node, click.view, click.at}}, {.node = nextWithout(project, node, click.view), .others = {}}, node, stemOf(project, node)};
 }
 
-ClickMeaning grow(const Project& project, NodeId node, const PhotoClick& click) {
-  const NodeId added = document::nextNodeId(project);
+/// A new node at each place of `way`; the stem through `node`, or a new one, goes on through them all.
+ClickMeaning grow(const Project& project, NodeId node, const std::string& view, std::span<const PhotoPoint> way) {
+  const std::optional<StemId> growing = growingStem(project, node);
+  const StemId stem = growing.value_or(document::nextStemId(project));
+  const bool isBranch = !growing && (document::stemThrough(project, node) || !document::stemsFrom(project, node).empty());
   Step step;
-  step.reserve(3);
-  step.emplace_back(document::AddNode{added, click.view, click.at});
-  if (const auto stem = growingStem(project, node)) {
-    step.emplace_back(document::AppendNode{*stem, added});
-    return {ClickKind::Extend, step, {.node = added, .others = {}}, node, stem};
+  step.reserve(2 * way.size() + 1);
+  NodeId added = document::nextNodeId(project);
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    if (i > 0) ++added.value;
+    step.emplace_back(document::AddNode{added, view, way[i]});
+    if (isBranch && i == 0) step.emplace_back(document::StartBranch{stem, node});
+    if (!growing && !isBranch && i == 0) step.emplace_back(document::AddStem{stem, {node, added}});
+    else step.emplace_back(document::AppendNode{stem, added});
   }
-  const StemId stem = document::nextStemId(project);
-  if (document::stemThrough(project, node) || !document::stemsFrom(project, node).empty()) {
-    step.emplace_back(document::StartBranch{stem, node});
-    step.emplace_back(document::AppendNode{stem, added});
-    return {ClickKind::Branch, step, {.node = added, .others = {}}, node, stem};
-  }
-  step.emplace_back(document::AddStem{stem, {node, added}});
-  return {ClickKind::Extend, step, {.node = added, .others = {}}, node, stem};
+  return {isBranch ? ClickKind::Branch : ClickKind::Extend, std::move(step), {.node = added, .others = {}}, node, stem};
 }
 
 ClickMeaning beginStem(const Project& project, const PhotoClick& click) {
@@ -114,12 +113,16 @@ std::optional<NodeId> nodeAt(const Project& project, const PhotoClick& click) {
 }
 
 ClickMeaning meaningOf(const Project& project, const Selection& selection, const PhotoClick& click) {
+  return meaningAlong(project, selection, click, std::span(&click.at, 1));
+}
+
+ClickMeaning meaningAlong(const Project& project, const Selection& selection, const PhotoClick& click, std::span<const PhotoPoint> way) {
   if (!document::viewNamed(project, click.view)) return {};
   if (click.picking == Picking::PickNodes)
     if (const auto node = nodeAt(project, click)) return {ClickKind::Select, {}, {.node = node, .others = {}}, node, stemOf(project, *node)};
   const bool selected = selection.node && document::nodeWithId(project, *selection.node);
   if (selected && !hasClick(project, *selection.node, click.view)) return place(project, *selection.node, click);
-  if (selected) return grow(project, *selection.node, click);
+  if (selected) return grow(project, *selection.node, click.view, way);
   if (project.stems.empty()) return beginStem(project, click);
   return {};
 }

@@ -11,6 +11,7 @@
 #include "document/command.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ struct PhotoClick {
   Picking picking = Picking::PickNodes;
 };
 
+/// `way`: the places along the stem from the selected node to the click, where they were traced; the click is the last of them. A stem
+/// that goes on, or a branch that begins, gets a node at each. Any other click is as without a way.
+[[nodiscard]] ClickMeaning meaningAlong(const document::Project& project, const Selection& selection, const PhotoClick& click, std::span<const PhotoPoint> way);
 [[nodiscard]] ClickMeaning meaningOf(const document::Project& project, const Selection& selection, const PhotoClick& click);
 
 /// The node with the nearest click in the view, within reach.

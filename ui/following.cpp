@@ -44,6 +44,8 @@ class Follow {
     following->skeleton = derived_.skeleton(question.open);
     following->measurements = derived_.measurements(question.open);
     const auto part = following->skeleton.trouble ? showPart(*following, question.open) : std::nullopt;
+    if (following->said && following->measurements.good)
+      following->contradictions = quantify::contradictionsWith(document::decided(*following->said, question.open.project.traits), *following->measurements.good);
     following->photos = derived_.photoTroubles(question.open);
     document::Derived& source = part ? part_ : derived_;
     for (const GrammarKind kind : kKinds) addGrammar(*following, source, part ? *part : question.open, kind, question.environment);

@@ -4,6 +4,7 @@
 /// at any time. Every answer keeps the last good value beside the trouble of the present project.
 
 #include "document/derived.hpp"
+#include "quantify/contradictions.hpp"
 #include "render/types.hpp"
 #include "simeco/environment.hpp"
 #include "simeco/growth.hpp"
@@ -37,6 +38,7 @@ struct Following {
   document::Shown<document::Measured> measured;
   document::Shown<skeleton3d::Skeleton> skeleton;
   document::Shown<quantify::Measurements> measurements;
+  std::vector<quantify::PhotoContradiction> contradictions;  ///< of the description with what was measured
   std::vector<document::PhotoTrouble> photos;
   std::array<std::shared_ptr<const GrownGrammar>, 3> grammars;       ///< by GrammarKind; null: there has not been one yet
   std::array<std::optional<Error>, 3> grammarTroubles;

@@ -8,6 +8,7 @@
 #include "ui/ghosts.hpp"
 #include "ui/photos.hpp"
 #include "ui/state.hpp"
+#include "ui/wires.hpp"
 
 #include <memory>
 #include <optional>
@@ -29,6 +30,7 @@ struct Panel {
   const document::Project& project;
   const Following& following;
   const Photos& photos;
+  const Wires& wires;
   const Texts& texts;
   const Palette& palette;
   const Texture& plantPicture;

@@ -67,6 +67,24 @@ std::optional<skeleton3d::RidgeReading> ridgeNear(const Pane& pane, PhotoPoint a
   return skeleton3d::snapClick(pane.photo->tiles->photo(), at, {.reach_px = std::clamp(kReach_px / pane.lens.frame.zoom, 2.0, kMost_px)});
 }
 
+/// The way along the stem from the node that would go on to `at`; nothing where tracing is off or no stem leads there.
+std::optional<skeleton3d::WirePath> wireTo(const Pane& pane, const ClickMeaning& meaning, PhotoPoint at) {
+  const bool grows = meaning.kind == ClickKind::Extend || meaning.kind == ClickKind::Branch;
+  if (!grows || !pane.state().trace || !meaning.node || pane.photo == nullptr || !pane.photo->tiles) return std::nullopt;
+  const auto place = document::nodeWithId(pane.panel.project, *meaning.node);
+  if (!place) return std::nullopt;
+  const auto& clicks = pane.panel.project.nodes[*place].node.clicks;
+  const auto from = clicks.find(pane.name());
+  return from == clicks.end() ? std::nullopt : pane.panel.wires.way(pane.photo->tiles->sharedPhoto(), from->second, at);
+}
+
+/// The places of the new nodes: the way begins at one that is there.
+std::vector<PhotoPoint> placesOf(const skeleton3d::WirePath& wire) {
+  std::vector<PhotoPoint> places;
+  for (std::size_t i = 1; i < wire.nodes.size(); ++i) places.push_back(wire.nodes[i].at);
+  return places;
+}
+
 /// Whether a click of this meaning puts a node somewhere.
 bool places(const ClickMeaning& meaning) { return meaning.kind != ClickKind::Nothing && meaning.kind != ClickKind::Select; }
 
@@ -167,7 +185,11 @@ Taken clicked(const Pane& pane, PhotoPoint at) {
   }
   ClickMeaning meaning = meaningHere(pane, at);
   if (meaning.kind == ClickKind::Nothing) return std::nullopt;
-  if (places(meaning))
+  if (const auto wire = wireTo(pane, meaning, at)) {
+    PhotoClick click = clickAt(pane, wire->nodes.back().at);
+    click.picking = Picking::OnlyPlace;
+    meaning = meaningAlong(pane.panel.project, state.selection, click, placesOf(*wire));
+  } else if (places(meaning))
     if (const auto ridge = ridgeNear(pane, at)) {
       PhotoClick click = clickAt(pane, ridge->at);
       click.picking = Picking::OnlyPlace;
@@ -290,7 +312,9 @@ Taken photoHand(Pane& pane) {
   else {
     const ClickMeaning meaning = meaningHere(pane, at);
     sayWhat(pane, meaning);
-    if (places(meaning)) state.ridge = ridgeNear(pane, at);
+    state.wire = wireTo(pane, meaning, at);
+    if (places(meaning) && !state.wire) state.ridge = ridgeNear(pane, at);
+    if (state.wire) state.status += "  " + filled(pane.panel.t("follows"), {{"n", std::to_string(state.wire->nodes.size() - 1)}});
     if (state.ridge) state.status += "  " + filled(pane.panel.t("snaps"), {{"percent", std::to_string(std::lround(100 * state.ridge->confidence))}});
   }
   return std::nullopt;

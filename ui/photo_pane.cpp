@@ -168,12 +168,24 @@ void drawLabel(const Pane& pane, int number) {
 void drawTrouble(const Pane& pane) {
   std::string text = pane.panel.t("photo_reading");
   if (pane.view.photo.empty()) text = pane.panel.t("photo_none");
-  else if (pane.photo != nullptr && pane.photo->trouble) text = pane.photo->trouble->message;
+  else if (pane.photo != nullptr && pane.photo->trouble) text = pane.panel.texts.translated(pane.photo->trouble->message, pane.state().language);
   else if (pane.photo != nullptr) return;
   const float width = pane.area.width * 0.8f;
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
   pane.list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {pane.area.x + (pane.area.width - size.x) / 2, pane.area.y + (pane.area.height - size.y) / 2}, pane.panel.palette.quiet, text.c_str(),
                     nullptr, width);
+}
+
+/// The way that a click would take, and its nodes.
+void drawWire(const Pane& pane, const skeleton3d::WirePath& wire, Colour colour) {
+  for (const auto& [ink, width] : {std::pair{rgb(0x101010, 150), 4.2f}, {colour, 2.2f}}) {
+    for (const skeleton3d::WireNode& place : wire.line) pane.list.PathLineTo(pane.lens.onScreen(place.at));
+    pane.list.PathStroke(ink, 0, pane.panel.px(width));
+  }
+  for (std::size_t i = 1; i < wire.nodes.size(); ++i) {
+    pane.list.AddCircleFilled(pane.lens.onScreen(wire.nodes[i].at), pane.panel.px(3.4f), rgb(0xFFFFFF), 16);
+    pane.list.AddCircle(pane.lens.onScreen(wire.nodes[i].at), pane.panel.px(4.2f), colour, 16, pane.panel.px(1.8f));
+  }
 }
 
 /// What a click would add, before it is clicked.
@@ -191,6 +203,7 @@ void drawGhost(const Pane& pane) {
       pane.list.AddLine(pane.lens.onScreen({edge - half}), pane.lens.onScreen({edge + half}), rgb(0xFFFFFF, 200), pane.panel.px(1.2f));
     }
   }
+  if (pane.state().wire) return drawWire(pane, *pane.state().wire, colour);
   if (meaning.kind == ClickKind::Extend || meaning.kind == ClickKind::Branch)
     if (const auto from = seen(pane, *meaning.node)) dashed(pane.list, pane.lens.onScreen(from->at), mouse, colour, pane.panel.px(2), pane.panel.px(6));
   if (meaning.kind != ClickKind::Nothing && meaning.kind != ClickKind::Select) pane.list.AddCircle(mouse, pane.panel.px(4), colour, 16, pane.panel.px(1.6f));

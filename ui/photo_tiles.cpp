@@ -42,7 +42,7 @@ std::array<std::uint8_t, 256> lookTable(PhotoLook look) {
 }
 
 void PhotoTiles::send(Place place, Tile& tile) {
-  const Photo& level = levels_[static_cast<std::size_t>(place.level)];
+  const Photo& level = (*levels_)[static_cast<std::size_t>(place.level)];
   const int left = place.column * kTile, top = place.row * kTile;
   const int width = std::min(kTile, level.width - left), height = std::min(kTile, level.height - top);
   // One pixel of the neighbours around each tile: no seam where it is stretched.
@@ -70,7 +70,7 @@ const PhotoTiles::Tile* PhotoTiles::tile(Place place, double zoom) {
   auto found = tiles_.find(place);
   if (found == tiles_.end()) {
     // The smallest level stands in for all others: it never waits.
-    if (toSend_ <= 0 && place.level + 1 < static_cast<int>(levels_.size())) {
+    if (toSend_ <= 0 && place.level + 1 < static_cast<int>(levels_->size())) {
       waiting_ = true;
       return nullptr;
     }
@@ -94,15 +94,15 @@ PhotoTiles::Piece PhotoTiles::pieceOf(Place place, const Tile& tile) {
 
 std::vector<PhotoTiles::Piece> PhotoTiles::pieces(glm::dvec2 low, glm::dvec2 high, double zoom, PhotoLook look) {
   std::vector<Piece> pieces;
-  if (levels_.empty()) return pieces;
+  if (levels_->empty()) return pieces;
   if (look != look_) {
     tiles_.clear();
     look_ = look;
   }
   waiting_ = false;
-  const int last = static_cast<int>(levels_.size()) - 1;
+  const int last = static_cast<int>(levels_->size()) - 1;
   const int level = std::clamp(static_cast<int>(std::floor(std::log2(1 / std::max(zoom, 1e-6)))), 0, last);
-  const Photo& shown = levels_[static_cast<std::size_t>(level)];
+  const Photo& shown = (*levels_)[static_cast<std::size_t>(level)];
   const double scale = std::exp2(level);
   if (const Tile* base = tile({last, 0, 0}, zoom)) pieces.push_back(pieceOf({last, 0, 0}, *base));
   if (level == last) return pieces;

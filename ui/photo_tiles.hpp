@@ -13,6 +13,7 @@
 #include <compare>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace axil::ui {
@@ -29,7 +30,7 @@ class PhotoTiles {
   static constexpr int kSentAFrame = 6;
   static constexpr std::size_t kMostKept = 160;
 
-  explicit PhotoTiles(std::vector<skeleton3d::Photo> levels) : levels_(std::move(levels)) {}
+  explicit PhotoTiles(std::vector<skeleton3d::Photo> levels) : levels_(std::make_shared<const std::vector<skeleton3d::Photo>>(std::move(levels))) {}
 
   /// A tile as it is to be drawn: from `low` to `high` in px of the photo; the texture's part in shares of it.
   struct Piece {
@@ -40,7 +41,9 @@ class PhotoTiles {
   /// What covers the photo from `low` to `high` at `zoom` screen px a photo px, in the order to be drawn. Sends what is missing, at most
   /// kSentAFrame tiles a call of `beginFrame`.
   [[nodiscard]] std::vector<Piece> pieces(glm::dvec2 low, glm::dvec2 high, double zoom, PhotoLook look);
-  [[nodiscard]] const skeleton3d::Photo& photo() const { return levels_.front(); }
+  [[nodiscard]] const skeleton3d::Photo& photo() const { return levels_->front(); }
+  /// The same, for work in the background.
+  [[nodiscard]] std::shared_ptr<const skeleton3d::Photo> sharedPhoto() const { return {levels_, &levels_->front()}; }
   void beginFrame() { toSend_ = kSentAFrame; }
   /// Something shown has still to be sent.
   [[nodiscard]] bool waiting() const { return waiting_; }
@@ -60,7 +63,7 @@ class PhotoTiles {
   void forgetOldest();
   [[nodiscard]] static Piece pieceOf(Place place, const Tile& tile);
 
-  std::vector<skeleton3d::Photo> levels_;
+  std::shared_ptr<const std::vector<skeleton3d::Photo>> levels_;
   std::map<Place, Tile> tiles_;
   PhotoLook look_;
   std::uint64_t clock_ = 0;

@@ -8,6 +8,7 @@
 #include "document/command.hpp"
 #include "simeco/environment.hpp"
 #include "skeleton3d/camera.hpp"
+#include "skeleton3d/live_wire.hpp"
 #include "skeleton3d/snap.hpp"
 #include "ui/clicking.hpp"
 #include "ui/preferences.hpp"
@@ -104,9 +105,13 @@ struct PhotoLook {
   friend bool operator==(const PhotoLook&, const PhotoLook&) = default;
 };
 
-/// A fact of the description while its value is written.
+/// A fact while it is written: one of the description, or one of the user's own.
 struct FactDraft {
-  std::size_t index = 0;  ///< among the facts of the text
+  std::optional<std::size_t> index;  ///< among the facts of the text; nothing: the user's own
+  std::string organ;                 ///< empty: not chosen yet
+  std::string property;
+  std::string words;                 ///< of the description; empty for the user's own
+  bool isMeasured = false;           ///< a size, not a word
   std::string value;
   double low = 0, high = 0;
   std::string unit;
@@ -200,6 +205,8 @@ struct UiState {
   std::optional<std::pair<std::string, PhotoPoint>> hover;  ///< which photo the mouse is over, and where
   bool snap = true;                                      ///< clicks go to the centre line of the stem they are near
   std::optional<skeleton3d::RidgeReading> ridge;         ///< under the mouse, this frame
+  bool trace = true;                                     ///< a stem is followed from the selected node to the mouse
+  std::optional<skeleton3d::WirePath> wire;              ///< the way to the mouse, this frame
   bool loupe = false;
   bool shortcuts = false;
   bool history = false;

@@ -11,6 +11,7 @@
 #include "ui/fonts_interop.hpp"
 #include "ui/plant_picture.hpp"
 #include "ui/shell.hpp"
+#include "ui/trait_words.hpp"
 
 #include <imgui.h>
 
@@ -25,9 +26,9 @@ using document::Step;
 
 namespace {
 
-std::string textOf(const Error& error) {
-  std::string text = error.message;
-  for (std::size_t i = 0; i < std::min<std::size_t>(error.details.size(), 3); ++i) text += "\n" + error.details[i];
+std::string textOf(const Error& error, const Texts& texts, Language language) {
+  std::string text = texts.translated(error.message, language);
+  for (std::size_t i = 0; i < std::min<std::size_t>(error.details.size(), 3); ++i) text += "\n" + texts.translated(error.details[i], language);
   return text;
 }
 
@@ -70,6 +71,7 @@ struct Studio::Inside {
   Preferences kept = {};  // as they were written last
   // Workers last: their threads end first.
   Photos photos;
+  Wires wires;
   Follower follower;
   DraftGrower draftGrower;
   GhostGrower ghostGrower;
@@ -78,7 +80,7 @@ struct Studio::Inside {
   FileWriter fileWriter;
 
   Inside(StudioOptions given, Texts words)
-      : options(std::move(given)), texts(std::move(words)), session(Session::untitled({.stateFolder = options.stateFolder, .chain = {}})), photos(options.wake), follower(followingWork, options.wake),
+      : options(std::move(given)), texts(std::move(words)), session(Session::untitled({.stateFolder = options.stateFolder, .chain = {}})), photos(options.wake), wires(options.wake), follower(followingWork, options.wake),
         draftGrower([] { return [](const DraftQuestion& q) { return grownFrom(q.text, q.seed, q.environment); }; }, options.wake), ghostGrower(ghostWork, options.wake),
         drawer(drawingWork, options.wake), exporter(options.wake), fileWriter(fileWork, options.wake) {
     state.preferences = readPreferences(options.stateFolder);
@@ -97,7 +99,7 @@ struct Studio::Inside {
     fonts.want(text);
     state.notice = Notice{kind, std::move(text)};
   }
-  void fail(const Error& error) { tell(NoticeKind::Failed, textOf(error)); }
+  void fail(const Error& error) { tell(NoticeKind::Failed, textOf(error, texts, state.language)); }
 
   // ---- the project -----------------------------------------------------------------------------------------------------------
 
@@ -261,7 +263,10 @@ struct Studio::Inside {
   // ---- the background --------------------------------------------------------------------------------------------------------
 
   void takeAnswers() {
-    if (auto answer = follower.take()) following = std::move(*answer);
+    if (auto answer = follower.take()) {
+      following = std::move(*answer);
+      wantFacts();
+    }
     if (asked != revision || askedEnvironment != state.environment) {
       asked = revision;
       askedEnvironment = state.environment;
@@ -275,6 +280,7 @@ struct Studio::Inside {
       else fail(answer->written.error());
     }
     photos.update(session.openProject());
+    wires.update(session.openProject(), state, photos);
     if (auto picture = drawer.take()) {
       drawingTrouble = picture->trouble;
       if (picture->trouble) fail(*picture->trouble);
@@ -282,6 +288,12 @@ struct Studio::Inside {
     }
     if (auto answer = exporter.take()) finishExport(*answer);
     if (exporting.running) std::tie(exporting.what, exporting.share) = exporter.progress();
+  }
+
+  /// The words of all facts in the window's language.
+  void wantFacts() {
+    if (!following->said) return;
+    for (const keywords::Trait& trait : *following->said) fonts.want(valueWord(trait, state.language) + organWord(trait.organ, state.language) + trait.qualifier + trait.unit);
   }
 
   void followDraft() {
@@ -385,7 +397,7 @@ struct Studio::Inside {
       applyLook(palette, state.scale);
     }
     play();
-    const Panel panel{session, session.project(), *following, photos, texts, palette, plantTexture, ghosts, draft, exporting, state};
+    const Panel panel{session, session.project(), *following, photos, wires, texts, palette, plantTexture, ghosts, draft, exporting, state};
     std::vector<Step> steps;
     if (Taken taken = actOnKeys(panel)) steps.push_back(std::move(*taken));
     for (Step& taken : shell(panel)) steps.push_back(std::move(taken));
@@ -395,8 +407,14 @@ struct Studio::Inside {
     keepPreferences();
   }
 
+  void wantFactValues(const FactDraft& fact) {
+    for (const FactKind& kind : factKinds()) fonts.want(organWord(kind.organ, state.language));
+    for (const std::string& value : valuesOf(fact.organ, fact.property)) fonts.want(valueWord(fact.organ, fact.property, value, state.language));
+  }
+
   /// What is typed and listed may have characters that no font has yet.
   void wantTyped() {
+    if (state.factDraft) wantFactValues(*state.factDraft);
     if (state.describing) fonts.want(state.descriptionDraft);
     if (state.dialog.kind == DialogKind::None) return;
     std::error_code none;
@@ -459,7 +477,7 @@ void Studio::frame() {
 
 bool Studio::isBusy() const {
   const Inside& in = *inside_;
-  return in.state.playing || in.follower.busy() || in.asked != in.revision || in.draftGrower.busy() || in.ghostGrower.busy() || in.fileWriter.busy() || in.photos.busy() || in.plantIsBehind() || in.exporting.running;
+  return in.state.playing || in.follower.busy() || in.asked != in.revision || in.draftGrower.busy() || in.ghostGrower.busy() || in.fileWriter.busy() || in.photos.busy() || in.wires.busy() || in.plantIsBehind() || in.exporting.running;
 }
 
 bool Studio::hasEnded() const { return inside_->ended; }

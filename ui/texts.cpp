@@ -3,7 +3,41 @@
 #include "base/table.hpp"
 #include "ui/data.hpp"
 
+#include <utility>
+
 namespace axil::ui {
+namespace {
+
+using Filling = std::map<char, std::string>;  // what stands at {1}, {2}
+
+/// What `message` has at the places of `pattern`, where it is that message. A place takes as little as it can.
+std::optional<Filling> fillingOf(std::string_view pattern, std::string_view message) {
+  Filling filling;
+  while (true) {
+    const std::size_t place = pattern.find('{');
+    if (message.substr(0, place) != pattern.substr(0, place)) return std::nullopt;
+    if (place == std::string_view::npos) return filling;
+    const char number = pattern[place + 1];
+    message.remove_prefix(place);
+    pattern.remove_prefix(place + 3);
+    const std::string_view next = pattern.substr(0, pattern.find('{'));
+    const std::size_t end = next.empty() ? message.size() : next.size() == pattern.size() ? message.rfind(next) : message.find(next);
+    if (end == std::string_view::npos || end == 0) return std::nullopt;
+    filling[number] = message.substr(0, end);
+    message.remove_prefix(end);
+  }
+}
+
+Result<std::vector<Message>> readMessages() {
+  const auto table = readTable(data::messages, "messages.tsv");
+  if (!table) return table.failure();
+  std::vector<Message> messages;
+  for (const Table::Row& row : table->rows)
+    messages.push_back({table->cell(row, "en"), table->cell(row, "zh_hant"), table->cell(row, "zh_hans")});
+  return messages;
+}
+
+}  // namespace
 
 Result<Texts> Texts::load() {
   const auto table = readTable(data::texts, "texts.tsv");
@@ -13,7 +47,22 @@ Result<Texts> Texts::load() {
     texts.rows_[table->cell(row, "key")] = {{Language::English, table->cell(row, "en")},
                                             {Language::TraditionalChinese, table->cell(row, "zh_hant")},
                                             {Language::SimplifiedChinese, table->cell(row, "zh_hans")}};
+  auto messages = readMessages();
+  if (!messages) return messages.failure();
+  texts.messages_ = std::move(*messages);
   return texts;
+}
+
+std::string Texts::translated(std::string_view message, Language language) const {
+  if (language == Language::English) return std::string(message);
+  for (const Message& known : messages_) {
+    const auto filling = fillingOf(known.english, message);
+    if (!filling) continue;
+    std::string text = language == Language::TraditionalChinese ? known.traditional : known.simplified;
+    for (const auto& [number, said] : *filling) text = filled(text, {{std::string_view(&number, 1), translated(said, language)}});
+    return text;
+  }
+  return std::string(message);
 }
 
 const char* Texts::operator()(std::string_view key, Language language) const {
@@ -25,6 +74,7 @@ std::string Texts::allCharacters() const {
   std::string all;
   for (const auto& [key, row] : rows_)
     for (const auto& [language, text] : row) all += text;
+  for (const Message& message : messages_) all += message.traditional + message.simplified;
   return all;
 }
 

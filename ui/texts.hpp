@@ -10,10 +10,18 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace axil::ui {
 
 enum class Language { English, TraditionalChinese, SimplifiedChinese };
+
+/// A message with places for what changes in it, in each language.
+struct Message {
+  std::string english;
+  std::string traditional;
+  std::string simplified;
+};
 
 class Texts {
  public:
@@ -22,12 +30,16 @@ class Texts {
 
   /// The words under `key`, zero-terminated.
   [[nodiscard]] const char* operator()(std::string_view key, Language language) const;
+  /// A message of another room, which is English, in `language`: by the table of messages, whose rows have {1}, {2} where a message has
+  /// names and numbers. A message that the table does not have stays as it is.
+  [[nodiscard]] std::string translated(std::string_view message, Language language) const;
   [[nodiscard]] bool has(std::string_view key) const { return rows_.find(key) != rows_.end(); }
   /// All characters of all languages: what a font must have.
   [[nodiscard]] std::string allCharacters() const;
 
  private:
   std::map<std::string, std::map<Language, std::string>, std::less<>> rows_;
+  std::vector<Message> messages_;
 };
 
 /// `pattern` with each {name} replaced.

@@ -1,5 +1,8 @@
 #include "ui/widgets_interop.hpp"
 
+#include "keywords/presets.hpp"
+#include "organs/leaf.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -164,7 +167,7 @@ void say(const Panel& panel, NoticeKind kind, std::string_view text) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::Indent(panel.px(10));
   ImGui::PushFont(font(Face::Small));
-  words(panel, text, colour);
+  words(panel, panel.texts.translated(text, panel.state.language), colour);
   ImGui::PopFont();
   ImGui::Unindent(panel.px(10));
   list.AddRectFilled({at.x, at.y + 2}, {at.x + panel.px(3), ImGui::GetItemRectMax().y}, colour, 1);
@@ -221,6 +224,47 @@ void dashed(ImDrawList& list, ImVec2 from, ImVec2 to, Colour colour, float width
     const float e = std::min(s + dash, length);
     list.AddLine({from.x + dx * s / length, from.y + dy * s / length}, {from.x + dx * e / length, from.y + dy * e / length}, colour, width);
   }
+}
+
+std::string countOf(const Panel& panel, std::size_t n, const char* key) { return filled(panel.t(key), {{"n", std::to_string(n)}}); }
+
+void leafPreview(const Panel& panel, const std::string& shape) {
+  const auto known = organs::leafShapeNamed(keywords::drawnShapeOf(shape));
+  if (!known) return;
+  const auto outline = organs::leafOutline(*known);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float height = panel.px(104), width = ImGui::GetContentRegionAvail().x;
+  list.AddRectFilled(at, {at.x + width, at.y + height}, panel.palette.raised, panel.px(6));
+  float low = 0, high = 1, wide = 0.2f;
+  for (const glm::vec2& p : outline) low = std::min(low, p.y), high = std::max(high, p.y), wide = std::max(wide, std::abs(p.x));
+  const float scale = std::min((width - panel.px(20)) / (high - low + 0.12f), (height - panel.px(16)) / (2 * wide));
+  const ImVec2 base{at.x + (width - (high + low) * scale) / 2 , at.y + height / 2};
+  const auto place = [&](glm::vec2 p) { return ImVec2(base.x + p.y * scale, base.y + p.x * scale); };
+  // A fan from the middle of the midrib fills every blade that is not cut deep; cut ones are outlined only.
+  if (known->lobes == organs::LeafLobes::None)
+    for (std::size_t i = 0; i < outline.size(); ++i) list.AddTriangleFilled(place({0, 0.5f}), place(outline[i]), place(outline[(i + 1) % outline.size()]), withAlpha(panel.palette.accent, 90));
+  for (const glm::vec2& p : outline) list.PathLineTo(place(p));
+  list.PathStroke(panel.palette.accent, ImDrawFlags_Closed, panel.px(1.6f));
+  list.AddLine(place({0, -0.1f}), place({0, 1}), panel.palette.accent, panel.px(1.2f));
+  ImGui::Dummy({width, height});
+}
+
+bool combo(const char* id, const std::vector<std::string>& names, std::string& chosen, const char* none) {
+  bool changed = false;
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::BeginCombo(id, chosen.empty() ? none : chosen.c_str())) return false;
+  if (ImGui::Selectable(none, chosen.empty())) chosen.clear(), changed = true;
+  for (const std::string& name : names)
+    if (ImGui::Selectable(name.c_str(), name == chosen)) chosen = name, changed = true;
+  ImGui::EndCombo();
+  return changed;
+}
+
+std::vector<std::string> leafShapeNames() {
+  std::vector<std::string> names;
+  for (const organs::LeafShape& shape : organs::leafShapes()) names.push_back(shape.name);
+  return names;
 }
 
 }  // namespace axil::ui

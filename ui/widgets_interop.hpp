@@ -28,9 +28,17 @@ void heading(const Panel& panel, std::string_view key);
 /// Wrapped text.
 void words(const Panel& panel, std::string_view text, Colour colour);
 void quiet(const Panel& panel, std::string_view text);
+/// A message with a mark of its kind; those of other rooms in the language of the window.
 void say(const Panel& panel, NoticeKind kind, std::string_view text);
 void fact(const Panel& panel, const char* name, const std::string& value);
 void gap(const Panel& panel, float height);
+/// "3 stems": a number in the words of `key`.
+std::string countOf(const Panel& panel, std::size_t n, const char* key);
+/// One of some names, or none; true when another was chosen.
+bool combo(const char* id, const std::vector<std::string>& names, std::string& chosen, const char* none);
+/// The outline of a leaf of that shape, on a plate across the panel; nothing for an unknown shape.
+void leafPreview(const Panel& panel, const std::string& shape);
+[[nodiscard]] std::vector<std::string> leafShapeNames();
 /// A text on a rounded plate, from its upper left corner; gives its width.
 float chip(ImDrawList& list, ImVec2 at, std::string_view text, Colour ground, Colour ink, float pad);
 void drawMark(ImDrawList& list, Mark mark, ImVec2 at, float radius, Colour colour);

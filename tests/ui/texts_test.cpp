@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <regex>
 #include <set>
+#include <sstream>
 
 namespace axil::ui {
 namespace {
@@ -36,6 +38,55 @@ TEST(Texts, EveryLanguageSaysSomethingAndKeepsThePlacesToFillIn) {
       EXPECT_NE(std::string((*texts)("click_branch", language)).find(place), std::string::npos) << place;
   EXPECT_EQ(filled(english, {{"stem", "7"}, {"node", "3"}}).find('{'), std::string::npos);
   EXPECT_STREQ((*texts)("no_such_key", Language::English), "no_such_key");
+}
+
+TEST(Texts, MessagesOfOtherRoomsAreSaidInTheLanguageOfTheWindow) {
+  const Texts texts = Texts::load().value();
+  const std::string message = "the clicks do not make a plant: node 12 is clicked in one view only (front); click it in another too (and 2 more)";
+  EXPECT_EQ(texts.translated(message, Language::English), message);
+  const std::string said = texts.translated(message, Language::SimplifiedChinese);
+  for (const char* part : {"12", "front", "另有 2 项", "节点"}) EXPECT_NE(said.find(part), std::string::npos) << said;
+  EXPECT_EQ(said.find("click"), std::string::npos) << said;
+  EXPECT_EQ(texts.translated("no row says this", Language::TraditionalChinese), "no row says this");
+}
+
+/// All sources of the rooms whose messages the table translates, with adjoining literals as one.
+std::string sourcesOfRooms() {
+  std::string all;
+  for (const char* room : {"document", "skeleton3d", "quantify"})
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(AXIL_UI_DIR).parent_path() / room))
+      if (entry.path().extension() == ".cpp") all += readFile(entry.path()).value();
+  return std::regex_replace(all, std::regex("\"\\s*\n\\s*\""), "");
+}
+
+/// The last words of each piece of a message that never changes, of the longest piece first; ids are written by functions of their own ("node 3").
+std::vector<std::string> lastWords(const std::string& message) {
+  static const std::regex changing(R"(\{\d\}|\b(node|stem) )"), words(R"((\S+ ){0,4}\S+$)");
+  std::vector<std::string> pieces;
+  for (std::sregex_token_iterator it(message.begin(), message.end(), changing, -1), end; it != end; ++it) {
+    const std::string piece = it->str();
+    const std::size_t from = piece.find_first_not_of(" '():,;"), to = piece.find_last_not_of(" '():,;");
+    std::smatch last;
+    const std::string trimmed = from == std::string::npos ? std::string() : piece.substr(from, to + 1 - from);
+    if (std::regex_search(trimmed, last, words)) pieces.push_back(last.str());
+  }
+  std::stable_sort(pieces.begin(), pieces.end(), [](const std::string& a, const std::string& b) { return a.size() > b.size(); });
+  pieces.resize(std::min<std::size_t>(pieces.size(), 2));
+  return pieces;
+}
+
+TEST(Texts, EveryMessageOfTheTableIsOneThatARoomCanSay) {
+  const std::string sources = sourcesOfRooms();
+  std::istringstream table(readFile(std::filesystem::path(AXIL_UI_DIR) / "data" / "messages.tsv").value());
+  std::size_t messages = 0;
+  for (std::string line; std::getline(table, line);) {
+    if (line.empty() || line[0] == '#' || line.starts_with("en\t")) continue;
+    const std::string message = line.substr(0, line.find('\t'));
+    const std::vector<std::string> pieces = lastWords(message);
+    ++messages;
+    EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), [&](const std::string& piece) { return sources.find(piece) != std::string::npos; })) << "no room says: " << message;
+  }
+  EXPECT_GT(messages, 60u);
 }
 
 }  // namespace

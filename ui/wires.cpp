@@ -1,0 +1,105 @@
+#include "ui/wires.hpp"
+
+#include "document/lookup.hpp"
+
+#include <algorithm>
+
+namespace axil::ui {
+namespace {
+
+constexpr std::size_t kMostReady = 3;
+/// A way with less is no stem.
+constexpr double kLeastConfidence = 0.3;
+
+/// Photos made ready, the last used first.
+class Prepare {
+ public:
+  WireAnswer operator()(const WireQuestion& question) {
+    WireAnswer answer{question, {}};
+    const skeleton3d::LiveWire* wire = ready(question.photo);
+    if (wire == nullptr || !question.from) return answer;
+    if (auto start = skeleton3d::startWire(*wire, *question.from)) answer.start = std::move(*start);
+    return answer;
+  }
+
+ private:
+  const skeleton3d::LiveWire* ready(const std::shared_ptr<const skeleton3d::Photo>& photo) {
+    const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const auto& kept) { return kept.first == photo; });
+    if (known != kept_.end()) {
+      std::rotate(kept_.begin(), known, known + 1);
+      return &kept_.front().second;
+    }
+    auto made = skeleton3d::prepareLiveWire(photo);
+    if (!made) return nullptr;  // too small to hold a stem
+    kept_.insert(kept_.begin(), {photo, std::move(*made)});
+    if (kept_.size() > kMostReady) kept_.pop_back();
+    return &kept_.front().second;
+  }
+
+  std::vector<std::pair<std::shared_ptr<const skeleton3d::Photo>, skeleton3d::LiveWire>> kept_;
+};
+
+const PhotoPoint* clickOf(const document::Project& project, document::NodeId node, const std::string& view) {
+  const auto place = document::nodeWithId(project, node);
+  if (!place) return nullptr;
+  const auto& clicks = project.nodes[*place].node.clicks;
+  const auto click = clicks.find(view);
+  return click == clicks.end() ? nullptr : &click->second;
+}
+
+std::shared_ptr<const skeleton3d::Photo> photoOf(const document::OpenProject& open, const document::ProjectView& view, const Photos& photos) {
+  const ShownPhoto* shown = view.photo.empty() ? nullptr : photos.find(document::photoPath(open, view));
+  return shown == nullptr || !shown->tiles ? nullptr : shown->tiles->sharedPhoto();
+}
+
+}  // namespace
+
+std::optional<document::NodeId> wireNode(const document::Project& project, const Selection& selection, const std::string& view) {
+  if (!selection.node) return std::nullopt;
+  if (clickOf(project, *selection.node, view) != nullptr) return selection.node;
+  const auto stem = document::stemThrough(project, *selection.node);
+  if (!stem) return std::nullopt;
+  const auto& nodes = project.stems[*stem].stem.nodes;
+  for (auto node = std::find(nodes.rbegin(), nodes.rend(), *selection.node); node != nodes.rend(); ++node)
+    if (clickOf(project, *node, view) != nullptr) return *node;
+  return std::nullopt;
+}
+
+Wires::Wires(std::function<void()> answered)
+    : worker_([] { return [prepare = std::make_shared<Prepare>()](const WireQuestion& question) { return (*prepare)(question); }; }, std::move(answered)) {}
+
+void Wires::ask(WireQuestion question) {
+  if (!worker_.working()) worker_.ask(std::move(question));
+}
+
+void Wires::update(const document::OpenProject& open, const UiState& state, const Photos& photos) {
+  if (auto answer = worker_.take()) {
+    if (!isPreparing(answer->question.photo)) std::erase(ready_, answer->question.photo);
+    ready_.push_back(answer->question.photo);
+    if (ready_.size() > kMostReady) ready_.erase(ready_.begin());
+    if (answer->start) answer_ = std::move(*answer);
+  }
+  if (!state.trace || state.way != Way::Stems) return;
+  if (state.hover) {
+    const auto place = document::viewNamed(open.project, state.hover->first);
+    const auto node = place ? wireNode(open.project, state.selection, state.hover->first) : std::nullopt;
+    const auto photo = place ? photoOf(open, open.project.views[*place], photos) : nullptr;
+    if (photo && node) {
+      const PhotoPoint from = *clickOf(open.project, *node, state.hover->first);
+      if (!answer_ || answer_->question.photo != photo || answer_->question.from != from) return ask({photo, from});
+    }
+  }
+  for (const document::ProjectView& view : open.project.views)
+    if (const auto photo = photoOf(open, view, photos); photo && isPreparing(photo) && ready_.size() < kMostReady) return ask({photo, {}});
+}
+
+std::optional<skeleton3d::WirePath> Wires::way(const std::shared_ptr<const skeleton3d::Photo>& photo, PhotoPoint from, PhotoPoint to) const {
+  if (!answer_ || answer_->question.photo != photo || answer_->question.from != from) return std::nullopt;
+  skeleton3d::WirePath path = skeleton3d::wireTo(*answer_->start, to);
+  if (path.confidence < kLeastConfidence || path.nodes.size() < 2) return std::nullopt;
+  return path;
+}
+
+bool Wires::isPreparing(const std::shared_ptr<const skeleton3d::Photo>& photo) const { return std::find(ready_.begin(), ready_.end(), photo) == ready_.end(); }
+
+}  // namespace axil::ui
