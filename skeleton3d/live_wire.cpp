@@ -47,11 +47,13 @@ glm::ivec2 meantCell(const StemnessMap& stems, glm::dvec2 click, double reach_px
   return best;
 }
 
-/// Of a cell; what is faint costs less than nothing at all, what is clear less than what is faint.
+/// Of a cell; what is faint costs less than nothing at all, what is clear less than what is faint. A clear stem costs something
+/// too: from where a branch leaves the middle of its parent no stem is seen for half the parent's width, and going along the
+/// parent and over some other branch must be dearer than that.
 float costOf(const StemnessMap& stems, const StemCell& cell) {
-  constexpr float kClear = 40;  // grey levels
+  constexpr float kClear = 40, kOnStem = 0.2F;  // grey levels; share of what nothing costs
   const float clear = cell.strength * cell.strength / (cell.strength * cell.strength + kClear * kClear);
-  return 0.03F + 0.97F * (0.6F * (1 - stems.likeness(cell)) + 0.4F * (1 - clear));
+  return kOnStem + (1 - kOnStem) * (0.6F * (1 - stems.likeness(cell)) + 0.4F * (1 - clear));
 }
 
 cv::segmentation::IntelligentScissorsMB scissorsOf(const StemnessMap& stems) {
@@ -226,6 +228,10 @@ WirePath pathOf(std::vector<WireNode> line, double tolerance_px) {
 bool isInside(const Photo& photo, glm::dvec2 px) { return px.x >= 0 && px.y >= 0 && px.x <= photo.width && px.y <= photo.height; }
 
 }  // namespace
+
+std::vector<WireNode> detail::refinedAlong(const PreparedWire& wire, const std::vector<glm::dvec2>& places, const std::vector<double>& widths_px) {
+  return refined(wire, {lineThroughPlaces(places, {}), widths_px});
+}
 
 Result<LiveWire> prepareLiveWire(std::shared_ptr<const Photo> photo, const Watch& watch) {
   if (!photo || photo->rgb.size() != std::size_t{3} * static_cast<std::size_t>(photo->width) * static_cast<std::size_t>(photo->height))

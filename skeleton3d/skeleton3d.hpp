@@ -23,8 +23,11 @@
 #include "skeleton3d/calibrate.hpp"  // a lens from photos of a chessboard
 #include "skeleton3d/guides.hpp"    // where a click of one view can be in another
 #include "skeleton3d/live_wire.hpp"  // the way along a stem while the mouse moves
+#include "skeleton3d/stem_between.hpp"  // the same stem in another view
+#include "skeleton3d/guide_candidates.hpp"  // where in another photo a click can be, ranked
 #include "skeleton3d/snap.hpp"      // a click onto its stem's centre line
 #include "skeleton3d/snap_place.hpp"  // snapped clicks to nodes and radii
+#include "skeleton3d/photographed.hpp"  // cameras and nodes by clicks and photos together
 #include "skeleton3d/width.hpp"     // widths to radii, tapers
 #include "skeleton3d/draft.hpp"     // masks to a draft of all stems
 #include "skeleton3d/solve.hpp"     // clicks to nodes
