@@ -28,6 +28,8 @@ class Calm {
   /// The string was rewritten another way, by `fired` rules.
   void disturbed(std::size_t fired);
 
+  /// Whether the tables describe the string: the next step needs nothing else.
+  [[nodiscard]] bool known() const { return known_; }
   [[nodiscard]] std::size_t bytes() const { return left_.bytes() + right_.bytes() + offsets_.bytes() + stack_.bytes(); }
   [[nodiscard]] const CompiledRule* lastRule() const { return lastRule_; }
 

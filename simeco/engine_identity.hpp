@@ -9,6 +9,7 @@
 
 #include "simeco/module_string.hpp"
 
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <string_view>
@@ -40,10 +41,18 @@ inline constexpr std::uint64_t kIdentityBits = (std::uint64_t{1} << 48) - 1;
   return familyOf(familyOf(hash + parameters) + nth) & kIdentityBits;
 }
 
+/// Writes one identity in one piece, and two bytes behind it: identities are written in order, and a Buffer has room behind its end.
+inline void writeIdentity(Identity* to, std::uint64_t who) {
+  if constexpr (std::endian::native == std::endian::little)
+    std::memcpy(static_cast<void*>(to), &who, sizeof who);
+  else
+    *to = identityOf(who);
+}
+
 /// Writes the children's identities: one a key.
 inline void writeChildren(Identity* to, std::uint64_t who, const std::uint64_t* keys, std::size_t count) {
   const std::uint64_t family = familyOf(who);
-  for (std::size_t i = 0; i < count; ++i) to[i] = identityOf(childOf(family, keys[i]));
+  for (std::size_t i = 0; i < count; ++i) writeIdentity(to + i, childOf(family, keys[i]));
 }
 
 }  // namespace axil::simeco

@@ -49,6 +49,10 @@ class PartPass {
     for (const RuleTable* table : {&program_.main().productions, &program_.main().decomposition})
       for (const CompiledRule& rule : table->rules) frame = std::max<std::size_t>(frame, rule.frame);
     frame_ = frame;
+    const bool fits = std::all_of(plans_.hot.begin(), plans_.hot.end(), [](const Hot& hot) { return hot.parameters <= kMostParameters; });
+    unfolding_ = plans_.unfoldsQuickly && fits && !single_ && !finite_;
+    maximumDepth_ = program_.main().decomposition.maximumDepth;
+    calls_ = unfolding_ ? static_cast<std::size_t>(std::clamp(maximumDepth_, 0, kCalls)) + 1 : 0;
     lane_.locals.resize(frame);
   }
 
@@ -151,6 +155,7 @@ class PartPass {
       out.codes.reserveMore(out.codes.size() + modules * plans_.longest);
       out.parameters.reserveMore(out.parameters.size() + (plans_.parameters ? modules * plans_.most : 0));
       if (identified_) out.identities.reserve(out.codes.capacity());
+      endsOfRoom();
       last = rewriteBlock(at, to, last, fringe);
       if (lane_.ended()) return;
       if (out.codes.size() > s_.options.limits.modules) lane_.limit = Lane::Limit::Modules;
@@ -166,21 +171,59 @@ class PartPass {
     if (s_.options.watch.cancelled() || s_.shared.late()) lane_.limit = Lane::Limit::Time;
   }
 
+  /// The draws of up to so many modules, made ahead of them: they do not wait for each other then.
+  struct Draws {
+    static constexpr std::size_t most = 1024;
+    std::array<std::uint16_t, most> places;       ///< of the modules that draw, counted from the first
+    std::array<std::uint32_t, most + 1> tickets;
+    std::array<std::uint64_t, most + 1> families;
+    std::size_t next = 0;
+  };
+  void drawAhead(Draws& draws, std::size_t begin, std::size_t end) const {
+    const SymbolCode* const codes = old_.codes.data();
+    const ByteSymbol* const symbols = plans_.byteSymbols.data();
+    std::size_t count = 0;
+    for (std::size_t at = begin; at < end; ++at) {
+      draws.places[count] = static_cast<std::uint16_t>(at - begin);
+      count += symbols[codes[at]].drawn ? 1 : 0;
+    }
+    const Rng choices = choices_;
+    const std::uint64_t step = step_;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t at = begin + draws.places[i];
+      const std::uint64_t who = whoIs(old_.identities[at]);
+      draws.families[i] = familyOf(who);
+      draws.tickets[i] = ticket(plans_.bySymbol[codes[at]], choices.split(step, who).bits() >> 11);
+    }
+    draws.next = 0;
+  }
+
   /// Without parameters every module is replaced by an entry of a table, copied whole; the only branches are brackets.
   template <bool identified, bool withLeft, bool withRight>
   SymbolCode rewriteBytes(std::size_t begin, std::size_t end, SymbolCode last, LeftFringe& fringe) {
+    if constexpr (!identified) {
+      return rewriteEntries<false, withLeft, withRight>(begin, end, last, fringe, nullptr);
+    } else {
+      Draws draws;
+      for (std::size_t at = begin; at < end; at += Draws::most) {
+        const std::size_t to = std::min(end, at + Draws::most);
+        drawAhead(draws, at, to);
+        last = rewriteEntries<true, withLeft, withRight>(at, to, last, fringe, &draws);
+      }
+      return last;
+    }
+  }
+  template <bool identified, bool withLeft, bool withRight>
+  SymbolCode rewriteEntries(std::size_t begin, std::size_t end, SymbolCode last, LeftFringe& fringe, const Draws* draws) {
     const SymbolCode* const codes = old_.codes.data();
     const SymbolCode* const rights = s_.rightCodes.data();
     const ByteSymbol* const symbols = plans_.byteSymbols.data();
     const ByteEntry* const entries = plans_.entries.data();
-    const std::uint64_t* const* const keys = plans_.entryKeys.data();
-    const Plan* const plans = plans_.bySymbol.data();
-    const Rng choices = choices_;
-    const std::uint64_t step = step_;
+    const std::array<std::uint64_t, 16>* const keys = plans_.entryKeys.data();
     const Identity* const who = old_.identities.data();
     Identity* born = identified ? lane_.out->identities.data() + lane_.out->codes.size() : nullptr;
     SymbolCode* to = lane_.out->codes.data() + lane_.out->codes.size();
-    std::size_t fired = 0;
+    std::size_t fired = 0, drawn = 0;
     const ByteEntry* fires = nullptr;
     for (std::size_t at = begin; at < end; ++at) {
       const SymbolCode code = codes[at];
@@ -190,15 +233,14 @@ class PartPass {
       if constexpr (!withLeft && withRight) entry += plans_.codes * symbol.leftStep;
       if constexpr (withRight) entry += std::size_t{rights[at]} * symbol.rightStep;
       if constexpr (withLeft && !withRight) entry += plans_.codes * symbol.rightStep;
-      if constexpr (identified) {
-        if (symbol.drawn) entry += ticket(plans[code], choices.split(step, whoIs(who[at])).uniform());
-      }
+      if constexpr (identified) entry += symbol.drawn ? draws->tickets[drawn] : 0u;
       const ByteEntry& made = entries[entry];
       if constexpr (identified) {
-        if (made.fires != 0)
-          writeChildren(born, whoIs(who[at]), keys[entry], made.length);
-        else
-          *born = who[at];
+        const std::uint64_t self = whoIs(who[at]);
+        std::uint64_t family = symbol.drawn ? draws->families[drawn] : self;
+        if (made.fires != 0 && !symbol.drawn) family = familyOf(self);
+        drawn += symbol.drawn ? 1 : 0;
+        writeFew(born, family, keys[entry], made);
         born += made.length;
       }
       std::memcpy(to, made.codes.data(), made.codes.size());
@@ -221,17 +263,21 @@ class PartPass {
     if constexpr (identified) lane_.out->identities.setSize(lane_.out->codes.size());
     return last;
   }
-  /// As `chosen`, without a branch that chance would take.
-  static std::size_t ticket(const Plan& plan, double uniform) {
-    double left = plan.sum * uniform;
-    std::size_t i = 0;
-    bool on = true;
-    for (std::size_t k = 0; k + 1 < plan.weights.size(); ++k) {
-      on = on && left >= plan.weights[k];
-      left -= plan.weights[k];
-      i += on ? 1 : 0;
+  /// The identities of an entry's modules, four at a time: a Buffer has room behind its end.
+  static void writeFew(Identity* born, std::uint64_t family, const std::array<std::uint64_t, 16>& keys, const ByteEntry& made) {
+    if (made.longer != nullptr) [[unlikely]] {
+      for (std::uint32_t i = 0; i < made.length; ++i) writeIdentity(born + i, childOf(family, made.longer->keys[i]));
+      return;
     }
-    return i;
+    writeIdentity(born, childOf(family, keys[0]));
+    for (std::uint32_t i = 1; i < made.length; i += 5)
+      for (std::uint32_t k = i; k < i + 5; ++k) writeIdentity(born + k, childOf(family, keys[k]));
+  }
+  /// As `chosen`, without a branch that chance would take.
+  static std::uint32_t ticket(const Plan& plan, std::uint64_t draw) {
+    std::uint32_t choice = 0;
+    for (const std::uint64_t threshold : plan.thresholds) choice += draw >= threshold ? 1 : 0;
+    return choice;
   }
 
   template <bool withParameters, bool identified, bool withLeft, bool withRight>
@@ -258,9 +304,7 @@ class PartPass {
             *pen.to++ = code;
           break;
         case Plan::Kind::Keep:
-          pen_ = pen;
-          fine = keep(code, hot.parameters, at);
-          pen = pen_;
+          fine = keepWhole<identified>(pen, hot, code, at);
           break;
         case Plan::Kind::Direct:
           fine = put<identified>(pen, *plans[code].direct, at);
@@ -331,7 +375,7 @@ class PartPass {
   /// Writes a successor whose parameters depend on the module's own at most.
   template <bool identified>
   bool put(Pen& pen, const QuickSuccessor& successor, std::size_t at) {
-    if (!successor.quick || single_ || finite_) return putSlowly(pen, successor, at);
+    if (!successor.quick || single_ || finite_) return unfolding_ && successor.unfolds ? unfoldAll<identified>(pen, successor, at) : putSlowly(pen, successor, at);
     copyCodes(pen.to, successor);
     pen.to += successor.length;
     if constexpr (identified) {
@@ -360,6 +404,15 @@ class PartPass {
     if (!hot.decomposes) {
       copy<identified>(pen, code, hot.parameters, at);
       return true;
+    }
+    return keepWhole<identified>(pen, hot, code, at);
+  }
+  /// A module that no production rewrites and that decomposition rules know.
+  template <bool identified>
+  bool keepWhole(Pen& pen, Hot hot, SymbolCode code, std::size_t at) {
+    if (unfolding_) {
+      const double* const in = pen.in;
+      return unfoldModule<identified>(pen, code, hot.parameters, in, identified ? old_.who(at) : 0, 0) && withinModules(pen);
     }
     pen_ = pen;
     const bool fine = keep(code, hot.parameters, at);
@@ -446,6 +499,107 @@ class PartPass {
     return writeSuccessor(rule, rule.successors.front(), locals, at);
   }
 
+  // ---- quick decomposition: rules that ask for a module's own parameters; each module is written where it belongs at once ------
+
+  /// So deep rules are followed by calls; what is deeper goes on with lists.
+  static constexpr int kCalls = 48;
+  static constexpr std::size_t kMostParameters = 32;
+
+  template <bool identified>
+  bool unfoldAll(Pen& pen, const QuickSuccessor& successor, std::size_t at) {
+    return unfold<identified>(pen, successor, pen.in, identified ? old_.who(at) : 0, 0) && withinModules(pen);
+  }
+  bool withinModules(const Pen& pen) {
+    const auto made = static_cast<std::size_t>(pen.to - lane_.out->codes.data());
+    return made <= s_.options.limits.modules || met(Lane::Limit::Modules);
+  }
+  template <bool identified>
+  bool unfold(Pen& pen, const QuickSuccessor& successor, const double* in, std::uint64_t who, int depth) {
+    if (pen.to + successor.length > codesEnd_ || pen.numbers + successor.values > numbersEnd_) [[unlikely]] {
+      if (!roomToUnfold<identified>(pen, successor)) return false;
+    }
+    constexpr std::size_t betweenLooks = 1 << 14;
+    if (++listed_ % betweenLooks == 0) [[unlikely]] {
+      look();
+      if (lane_.ended()) return false;
+    }
+    rule_ = successor.rule;
+    const QuickTerm* term = successor.terms.data();
+    const SymbolCode* const codes = successor.length <= successor.codes.size() ? successor.codes.data() : successor.successor->codes.data();
+    const std::uint64_t* const keys = successor.keys;
+    const std::uint64_t family = identified ? familyOf(who) : 0;
+    const auto worked = [in](const QuickTerm& t) {
+      const double moved = in[t.slot] * t.factor + t.value;
+      return t.constant != 0 ? t.value : moved;
+    };
+    for (const Piece& piece : successor.pieces) {
+      for (std::uint32_t i = 0; i < piece.modules; ++i) pen.to[i] = codes[piece.first + i];
+      pen.to += piece.modules;
+      if constexpr (identified) {
+        for (std::uint32_t i = 0; i < piece.modules; ++i) writeIdentity(pen.who + i, childOf(family, keys[piece.first + i]));
+        pen.who += piece.modules;
+      }
+      for (std::uint32_t i = 0; i < piece.values; ++i) pen.numbers[i] = worked(*term++);
+      pen.numbers += piece.values;
+      if (!piece.unfolds) continue;
+      std::array<double, kMostParameters> own;
+      own[0] = 0;  // there always is a number to read
+      for (std::uint8_t i = 0; i < piece.parameters; ++i) own[i] = worked(*term++);
+      const std::uint64_t child = identified ? childOf(family, keys[piece.first + piece.modules]) : 0;
+      if (!unfoldModule<identified>(pen, piece.code, piece.parameters, own.data(), child, depth)) return false;
+    }
+    return true;
+  }
+  /// A module that `depth` nested applications made: what its decomposition rules make of it, or itself.
+  template <bool identified>
+  bool unfoldModule(Pen& pen, SymbolCode code, std::size_t parameters, const double* own, std::uint64_t who, int depth) {
+    for (const QuickSuccessor* choice : plans_.unfoldings[code].choices) {
+      const CompiledRule& rule = *choice->rule;
+      const bool holds = !rule.hasCondition || machine_.value(rule.condition, const_cast<double*>(own)) != 0;
+      if (rule.condition.kind == Term::Kind::Coded && machine_.trouble()) return inTrouble(rule);
+      if (!holds) continue;
+      if (depth < maximumDepth_) {
+        ++lane_.fired;
+        if (depth >= kCalls) return unfoldDeeper<identified>(pen, rule, own, who, depth);
+        return unfold<identified>(pen, *choice, own, who, depth + 1);
+      }
+      lane_.depthReached = lane_.depthReached || program_.main().decomposition.warn;
+    }
+    *pen.to++ = code;
+    if constexpr (identified) writeIdentity(pen.who++, who);
+    for (std::size_t i = 0; i < parameters; ++i) pen.numbers[i] = own[i];
+    pen.numbers += parameters;
+    return true;
+  }
+  /// With lists, which may be as deep as memory allows.
+  template <bool identified>
+  bool unfoldDeeper(Pen& pen, const CompiledRule& rule, const double* own, std::uint64_t who, int depth) {
+    pen_ = pen;
+    const bool fine = list(rule, rule.successors.front(), const_cast<double*>(own), who, depth + 1) && decompose(0);
+    pen = pen_;
+    endsOfRoom();
+    return fine;
+  }
+  /// Room for a successor and the rest of the block; fails where a limit is met.
+  template <bool identified>
+  bool roomToUnfold(Pen& pen, const QuickSuccessor& successor) {
+    pen_ = pen;
+    if (!mayGoOnListing()) return false;
+    makeRoom(successor.length, successor.values);
+    pen = pen_;
+    endsOfRoom();
+    return true;
+  }
+  /// Room that must be left for the rest of the block, and for what the successors that are being unfolded still have to write.
+  [[nodiscard]] std::size_t promisedCodes() const { return room_ * plans_.longest + calls_ * plans_.longestUnfolding; }
+  [[nodiscard]] std::size_t promisedNumbers() const { return room_ * plans_.most + calls_ * plans_.mostUnfolding; }
+  /// Up to where decomposed modules may be written.
+  void endsOfRoom() {
+    Arrays& out = *lane_.out;
+    codesEnd_ = out.codes.data() + (out.codes.capacity() - std::min(out.codes.capacity(), promisedCodes()));
+    numbersEnd_ = out.parameters.data() + (out.parameters.capacity() - std::min(out.parameters.capacity(), promisedNumbers()));
+  }
+
   // ---- decomposition: lists of modules, the innermost first, each module looked up ----------------------------------
 
   bool decomposes(const CompiledSuccessor& successor) const {
@@ -496,7 +650,7 @@ class PartPass {
   void makeRoom(std::size_t modules, std::size_t numbers) {
     Arrays& out = *lane_.out;
     const auto codesNow = static_cast<std::size_t>(pen_.to - out.codes.data()), numbersNow = static_cast<std::size_t>(pen_.numbers - out.parameters.data());
-    const std::size_t codesThen = codesNow + modules + room_ * plans_.longest, numbersThen = numbersNow + numbers + room_ * plans_.most;
+    const std::size_t codesThen = codesNow + modules + promisedCodes(), numbersThen = numbersNow + numbers + promisedNumbers();
     if (codesThen <= out.codes.capacity() && numbersThen <= out.parameters.capacity()) return;
     out.codes.setSize(codesNow);  // what is written is kept
     out.parameters.setSize(numbersNow);
@@ -632,11 +786,6 @@ class PartPass {
     if (!machine_.trouble() && !(w >= 0)) machine_.giveUp(ErrorCode::NoAnswer, "a probability that is negative or no number");
     return w;
   }
-  static std::size_t chosen(std::span<const double> weights, double left) {
-    std::size_t i = 0;
-    while (i + 1 < weights.size() && left >= weights[i]) left -= weights[i++];
-    return i;
-  }
   std::size_t drawn(const Plan& plan, std::size_t at) const { return chosen(plan.weights, plan.sum * choices_.split(step_, old_.who(at)).uniform()); }
 
   /// Whether a rule applies to the module at hand; `locals` is where its parameters are then: the string itself, where the rule
@@ -719,6 +868,11 @@ class PartPass {
   std::size_t frame_ = 1;
   const double* in_ = nullptr;          ///< parameters of the module at hand
   std::size_t room_ = 0;                ///< modules of a block
+  SymbolCode* codesEnd_ = nullptr;      ///< up to where decomposed modules may be written without making room
+  double* numbersEnd_ = nullptr;
+  bool unfolding_ = false;              ///< decomposition is quick
+  int maximumDepth_ = 0;
+  std::size_t calls_ = 0;               ///< successors that may be unfolded within each other
   std::size_t listed_ = 0;
   Pen pen_;                             ///< where the slower ways read and write
   std::vector<double> weights_;

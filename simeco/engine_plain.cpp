@@ -69,11 +69,21 @@ void joinLanes(Engine::State& s, int threads) {
   for (int i = 1; i < threads; ++i) join(i);
 }
 
+/// A step in place has tables of its own and needs none of the room that rewriting needs.
+void giveRoomBack(Engine::State& s) {
+  s.spare = {};
+  s.spare.parameters.reserve(1);  // so that there always is a place to read from
+  s.rightCodes = {};
+  s.around = {};
+  for (Lane& lane : s.lanes) lane.own = {};
+}
+
 }  // namespace
 
 Result<std::size_t> Engine::State::plainStep() {
   const std::size_t size = string.size();
   if (timeless && !identified && calm->worthTrying(size)) {
+    if (!calm->known()) giveRoomBack(*this);
     if (const auto changed = calm->step(string, machine(), options.singlePrecision)) {
       inPlace = true;
       if (calm->lastRule() != nullptr) lastRule = calm->lastRule();

@@ -33,6 +33,20 @@ bool quickTerm(const Term& term, QuickTerm& quick) {
   return false;
 }
 
+/// The least draw, as the whole number of which `uniform` is the 2^-53th part, that takes `choice` or a later one; 2^53 where none
+/// does. Found by halving, so that comparing whole numbers takes exactly what `chosen` would.
+std::uint64_t thresholdOf(const Plan& plan, std::size_t choice) {
+  std::uint64_t low = 0, high = std::uint64_t{1} << 53;
+  while (low < high) {
+    const std::uint64_t middle = (low + high) / 2;
+    if (chosen(plan.weights, plan.sum * (static_cast<double>(middle) * 0x1.0p-53)) >= choice)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return low;
+}
+
 class Planner {
  public:
   explicit Planner(const Program& program) : program_(program), main_(program.main()), plans_(std::make_unique<Plans>()) {}
@@ -48,6 +62,7 @@ class Planner {
       plans_->decomposesByChance = plans_->decomposesByChance || rule.random || rule.randomCondition;
     }
     for (std::size_t code = 0; code < plans_->codes; ++code) planSymbol(code);
+    planUnfolding();
     // The tables are in place now and do not move any more.
     for (std::size_t code = 0; code < plans_->codes; ++code)
       if (tableOf_[code] >= 0) plans_->bySymbol[code].table = plans_->tables[static_cast<std::size_t>(tableOf_[code])].data();
@@ -97,7 +112,49 @@ class Planner {
       if (entry.length > entry.codes.size()) entry.longer = successor;
     }
     plans_->entries.push_back(entry);
-    plans_->entryKeys.push_back(successor == nullptr ? nullptr : successor->keys);
+    auto& keys = plans_->entryKeys.emplace_back();
+    if (successor != nullptr) std::copy_n(successor->keys, std::min<std::size_t>(entry.length, keys.size()), keys.begin());
+  }
+
+  // ---- decomposition -----------------------------------------------------------------------------------------------
+
+  /// Whether a decomposition rule asks for its module's own parameters at most, and makes none that have to be worked out.
+  [[nodiscard]] bool unfoldsQuickly(const CompiledRule& rule) const {
+    const Pattern& predecessor = rule.predecessor.front();
+    QuickTerm ignored;
+    const auto& terms = rule.successors.front().terms;
+    return rule.predecessor.size() == 1 && contextFree(rule) && predecessor.demands.empty() && predecessor.slot == 0 && !rule.statements && !rule.random &&
+           !rule.randomCondition && rule.frame <= program_.parameterCount[predecessor.code] && rule.successors.size() == 1 &&
+           std::all_of(terms.begin(), terms.end(), [&](const Term& term) { return quickTerm(term, ignored = {}); });
+  }
+  void planUnfolding() {
+    const auto& rules = main_.decomposition.rules;
+    plans_->unfoldsQuickly = plans_->decomposes && std::all_of(rules.begin(), rules.end(), [this](const CompiledRule& rule) { return unfoldsQuickly(rule); });
+    if (!plans_->unfoldsQuickly) return;
+    for (std::size_t code = 0; code < plans_->codes; ++code)
+      for (const std::uint32_t number : main_.decomposition.bySymbol[code].all) plans_->unfoldings[code].choices.push_back(quick(rules[number]));
+    for (const auto& successor : plans_->successors) {
+      successor->pieces = piecesOf(*successor->successor);
+      plans_->longestUnfolding = std::max<std::size_t>(plans_->longestUnfolding, successor->length);
+      plans_->mostUnfolding = std::max<std::size_t>(plans_->mostUnfolding, successor->values);
+    }
+  }
+  [[nodiscard]] std::vector<Piece> piecesOf(const CompiledSuccessor& successor) const {
+    std::vector<Piece> pieces(1);
+    for (std::uint32_t i = 0; i < successor.codes.size(); ++i) {
+      const SymbolCode code = successor.codes[i];
+      Piece& piece = pieces.back();
+      if (plans_->hot[code].decomposes) {
+        piece.unfolds = true;
+        piece.code = code;
+        piece.parameters = program_.parameterCount[code];
+        pieces.push_back({.first = i + 1});
+      } else {
+        ++piece.modules;
+        piece.values += program_.parameterCount[code];
+      }
+    }
+    return pieces;
   }
 
   void planSymbol(std::size_t code) {
@@ -162,6 +219,7 @@ class Planner {
     std::copy_n(q->successor->codes.begin(), std::min<std::size_t>(q->length, q->codes.size()), q->codes.begin());
     for (const Term& term : q->successor->terms) q->quick = quickTerm(term, q->terms.emplace_back()) && q->quick;
     for (const SymbolCode code : q->successor->codes) q->decomposes = q->decomposes || plans_->hot[code].decomposes;
+    q->unfolds = q->quick;
     q->quick = q->quick && !q->decomposes;
     plans_->successors.push_back(std::move(q));
     return plans_->successors.back().get();
@@ -172,6 +230,7 @@ class Planner {
       plan.weights.push_back(rule->successors.front().weight.value);
       plan.sum += plan.weights.back();
     }
+    for (std::size_t choice = 1; choice < plan.weights.size(); ++choice) plan.thresholds.push_back(thresholdOf(plan, choice));
     return Plan::Kind::Lottery;
   }
 

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace axil::simeco {
@@ -24,6 +25,16 @@ struct QuickTerm {
   std::uint32_t constant = 0;
 };
 
+/// Modules of a successor up to the next that decomposition rules know, and that one.
+struct Piece {
+  std::uint32_t first = 0;                         ///< module
+  std::uint32_t modules = 0;                       ///< that are written as they are
+  std::uint32_t values = 0;                        ///< their parameters
+  bool unfolds = false;                            ///< whether another follows, which is looked up:
+  SymbolCode code = 0;
+  std::uint8_t parameters = 0;
+};
+
 /// A successor ready to be written.
 struct QuickSuccessor {
   alignas(16) std::array<SymbolCode, 32> codes{};  ///< its first modules
@@ -32,6 +43,8 @@ struct QuickSuccessor {
   std::vector<QuickTerm> terms;                    ///< when `quick`
   const std::uint64_t* keys = nullptr;             ///< for the identities of its modules
   bool quick = true;                               ///< every parameter is a QuickTerm, and nothing is decomposed
+  bool unfolds = false;                            ///< every parameter is a QuickTerm; `pieces` say what is decomposed
+  std::vector<Piece> pieces;                       ///< where decomposition is quick
   bool decomposes = false;                         ///< one of its modules has decomposition rules
   bool random = false;
   const CompiledRule* rule = nullptr;
@@ -43,6 +56,13 @@ struct CandidateList {
   std::vector<const CompiledRule*> rules;
   const QuickSuccessor* outright = nullptr;        ///< the first of them, when it always applies
 };
+
+/// Which of `weights` is drawn when `left` of their sum is to be passed over.
+[[nodiscard]] inline std::size_t chosen(std::span<const double> weights, double left) {
+  std::size_t i = 0;
+  while (i + 1 < weights.size() && left >= weights[i]) left -= weights[i++];
+  return i;
+}
 
 struct Plan {
   enum class Kind : std::uint8_t {
@@ -59,6 +79,7 @@ struct Plan {
   std::vector<const QuickSuccessor*> choices;      ///< Guarded, Lottery
   std::vector<double> weights;                     ///< Lottery
   double sum = 0;
+  std::vector<std::uint64_t> thresholds;           ///< Lottery: the 53 bits of a draw from which on the next choice is taken
   const std::uint16_t* table = nullptr;            ///< Neighbours: list of rules by (left code, right code)
 };
 
@@ -87,6 +108,11 @@ struct ByteSymbol {
   bool drawn = false;
 };
 
+/// The decomposition rules of a symbol, where they ask for its own parameters alone; in text order.
+struct Unfolding {
+  std::vector<const QuickSuccessor*> choices;
+};
+
 struct Plans {
   enum Role : std::uint8_t { Considered, Ignored, Opens, Closes };
 
@@ -101,11 +127,15 @@ struct Plans {
   SurroundingNeeds needs;                       ///< of the symbols with Kind::Rules
   bool decomposes = false;                      ///< there are decomposition rules
   bool decomposesByChance = false;              ///< one of them draws
+  bool unfoldsQuickly = false;                  ///< all of them are quick: `unfoldings` say it all
+  std::array<Unfolding, 256> unfoldings;
+  std::size_t longestUnfolding = 1;             ///< modules and parameters of one successor, decomposition rules counted
+  std::size_t mostUnfolding = 1;
   bool parameters = false;                      ///< some symbol has parameters
   bool bytes = false;                           ///< no parameters, nothing to compute: `entries` say it all
   std::array<ByteSymbol, 256> byteSymbols;
   std::vector<ByteEntry> entries;
-  std::vector<const std::uint64_t*> entryKeys;  ///< of each entry the keys of its modules; null: it stays who it is
+  std::vector<std::array<std::uint64_t, 16>> entryKeys;  ///< of each entry the keys of its first modules, 0 behind them; of a module that stays who it is, 0
   bool leaps = true;                            ///< only Copy and constant Direct: many steps can be made at once
   bool calms = true;                            ///< only Copy, Direct, Guarded and Neighbours, nothing random, brackets stay
   std::size_t longest = 1;                      ///< modules that one module may become
