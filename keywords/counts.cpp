@@ -2,6 +2,7 @@
 #include "keywords/paragraph.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace axil::keywords {
@@ -41,8 +42,10 @@ void ParagraphReader::addCount(std::size_t first, std::size_t end, const std::st
   trait.maximum = range.maximum;
   trait.unit = unit == "merous" ? "" : unit;
   trait.part = piece;
+  trait.qualifier = range.open ? "more than" : qualifierBefore(first);
   if (scope_.organ != nullptr && scope_.organ->name == organ) trait.which = scope_.which;
   keep(std::move(trait), !piece.empty());
+  lastCount_ = {end, organ, piece, unit};
 }
 
 // The token after "per node", "at each node", "in each whorl", "in a whorl".
@@ -71,15 +74,18 @@ std::size_t ParagraphReader::readLeavesPerNode(std::size_t i, const NumberRange&
   const bool ofWhorls = i >= 2 && is(i - 1, "of") && isGathered(i - 2);
   const bool ofInWhorls = !ofWhorls && i >= 3 && is(i - 1, "of") && found_[i - 3] && found_[i - 3].end == i - 1 && isGathered(i - 3);
   const bool perNodeHan = i >= 2 && is(i - 2, "每") && isAny(i - 1, {"節", "节", "輪", "轮", "束"});
+  const bool others = scope_.organ != nullptr && scope_.organInSentence && isOneOf(scope_.organ->name, {"flower", "branch", "bract", "inflorescence", "fruit", "thorn", "leaflet", "tepal"});
+  const std::string organ = others ? scope_.organ->name : std::string("leaf");
   if (ofWhorls || ofInWhorls || perNodeHan) {
-    addCount(ofInWhorls ? i - 3 : i - 2, range.end, "leaf", "", range, "per node");
+    addCount(ofInWhorls ? i - 3 : i - 2, range.end, organ, "", range, "per node");
     return range.end;
   }
   std::size_t at = range.end;
   while (isAny(at, {"枚", "片", "張", "张", "-", "針", "针"}) || (at < tokens_.size() && nounAt(at) != nullptr && nounAt(at)->name == "leaf")) at = std::max(at + 1, found_[at].end);
   const std::size_t perNode = afterPerNode(at);
-  if ((perNode == 0 && !isGathered(at)) || !leafIsMeant(range.end, at)) return 0;
-  addCount(i, perNode != 0 ? perNode : found_[at].end, "leaf", "", range, "per node");
+  const bool othersPerNode = others && perNode != 0 && at == range.end;  // "branches 2 per node"
+  if ((perNode == 0 && !isGathered(at)) || !(othersPerNode || leafIsMeant(range.end, at))) return 0;
+  addCount(i, perNode != 0 ? perNode : found_[at].end, othersPerNode ? organ : std::string("leaf"), "", range, "per node");
   evidence_ += 1;
   if (perNode == 0) return at;  // the arrangement itself is read next
   // "3 or 4 in a whorl" says the arrangement too, where nothing before has said it.
@@ -101,7 +107,14 @@ std::size_t ParagraphReader::readCount(std::size_t i) {
     evidence_ += 2;  // a word that only botany uses
     return end;
   }
+  // "cymes of 20-50": flowers, where no organ follows.
+  const bool ofInflorescence = i >= 2 && is(i - 1, "of") && scope_.organ != nullptr && scope_.organ->name == "inflorescence" && scope_.organEnd + 1 == i;
+  if (ofInflorescence && (range->end >= tokens_.size() || tokens_[range->end].kind == TokenKind::Sign) && !is(range->end, "-")) {
+    addCount(i, range->end, "flower", "", *range, "per inflorescence");
+    return range->end;
+  }
   if (const std::size_t end = readCountedWord(i, *range)) return end;
+  if (const std::size_t end = readCountGoingOn(i, *range)) return end;
   if (const std::size_t end = readCountOfOrganBefore(i, *range)) return end;
   return readCountOfOrganAfter(i, *range);
 }
@@ -112,7 +125,7 @@ ParagraphReader::Measure ParagraphReader::measureAt(std::size_t i) const {
     return {end, "pairs"};
   }
   if (is(i, "on") && isAny(i + 1, {"each", "either"}) && is(i + 2, "side")) return {i + 3, "per side"};
-  if (isAny(i, {"per", "in"}) && (is(i + 1, "locule") || (is(i + 1, "each") && is(i + 2, "locule")))) return {is(i + 1, "each") ? i + 3 : i + 2, "per locule"};
+  if (isAny(i, {"per", "in"}) && (isAny(i + 1, {"locule", "cell"}) || (is(i + 1, "each") && isAny(i + 2, {"locule", "cell"})))) return {is(i + 1, "each") ? i + 3 : i + 2, "per locule"};
   if (isAny(i, {"枚", "片", "個", "个", "朵", "條", "条", "根", "瓣", "粒", "顆", "颗"})) return {i + 1, ""};
   return {i, ""};
 }
@@ -138,14 +151,22 @@ std::size_t ParagraphReader::readCountedWord(std::size_t i, const NumberRange& r
   const Concept* attributive = counted.organ.empty() ? organAfter(counted.end) : nullptr;
   if (counted.organ.empty() && attributive == nullptr && (scope_.organ == nullptr || !scope_.organInSentence)) return 0;
   const std::string organ = !counted.organ.empty() ? counted.organ : attributive != nullptr ? attributive->name : scope_.organ->name;
+  const bool apexCut = counted.piece == "lobe" && range.low == 2 && range.high == 2 && attributive == nullptr && scope_.place != nullptr && scope_.place->name == "apex";
+  if (apexCut && !isNegated(i)) {  // "apex 2-lobed", 先端二深裂
+    Trait trait = traitAt(i, counted.end, organ, "apex");
+    trait.value = "bilobed";
+    keep(std::move(trait), false);
+    return counted.end;
+  }
   const bool isMember = scope_.organ != nullptr && isOneOf(scope_.organ->name, {"fruit"}) && counted.piece == "locule";
   const bool cellsOfOvary = counted.piece == "locule" && !isMember && scope_.organ != nullptr && scope_.organ->name == "anther";
   if (isWordWithNumber(range.end) == false && counted.organ.empty() && isOneOf(organ, {"plant", "vein", "bark"})) return 0;
   if (!isNegated(i)) {
     const std::string owner = isMember || cellsOfOvary ? scope_.organ->name : organ;
-    addCount(i, counted.end, owner, counted.piece, range, counted.unit);
+    const bool valves = owner == "fruit" && counted.piece == "lobe" && isHan(counted.end - 1);  // 蒴果三裂
+    addCount(i, counted.end, owner, valves ? "valve" : counted.piece, range, counted.unit);
     evidence_ += 1;
-    if (counted.piece == "lobe") addLobedShape(i, counted.end, range);
+    if (counted.piece == "lobe" && !valves) addLobedShape(i, counted.end, range);
     if (counted.organ == "leaflet") organSeen_ = true;
     if (counted.organ == "leaflet" && i > 0 && isAny(i - 1, {"digitately", "palmately"})) {
       Trait type = traitAt(i - 1, counted.end, "leaf", "type");
@@ -175,7 +196,7 @@ void ParagraphReader::addLobedShape(std::size_t i, std::size_t end, const Number
 }
 
 bool ParagraphReader::isWordWithNumber(std::size_t i) const {
-  return (is(i, "-") && i + 1 < tokens_.size() && tokens_[i + 1].kind == TokenKind::Word) || isAny(i, {"*", "/", "%", "°", "裂", "出", "脈", "脉", "times", "倍", "回", "月", "年", "數", "数", "x"}) ||
+  return (is(i, "-") && i + 1 < tokens_.size() && tokens_[i + 1].kind == TokenKind::Word) || isAny(i, {"*", "/", "%", "°", "裂", "出", "脈", "脉", "times", "倍", "回", "月", "年", "數", "数", "x", "層", "层", "列", "輪", "轮", "系", "series", "rows", "ranks", "tiers", "layers", "cycles", "型", "叉"}) ||
          (i < found_.size() && found_[i].conceptAs("dimension") != nullptr && !isHan(i));
 }
 
@@ -183,25 +204,127 @@ bool ParagraphReader::isWordWithNumber(std::size_t i) const {
 std::size_t ParagraphReader::beforeCount(std::size_t i) const {
   std::size_t before = i;
   while (before > scope_.organEnd &&
-         (isAny(before - 1, {":", "有", "為", "为", "約", "约", "ca", ".", "about", "通", "常", "多", "each", "are", "各", "共", "含", "(", "具", "in", "number", "c", "is", "up", "to", "達", "达", "可"}) ||
-          !qualifierOf(tokens_[before - 1].text).empty()))
-    --before;
+         (isAny(before - 1, {":", "有", "為", "为", "約", "约", "ca", ".", "about", "通", "常", "多", "each", "are", "各", "共", "含", "(", "具", "in", "number", "c", "is", "up", "to", "達", "达", "可",
+                                "±", "always", "only", "僅", "仅", "均", "皆"}) ||
+          !qualifierOf(tokens_[before - 1].text).empty() || beforeEach(before) != before))
+    before = std::min(before - 1, beforeEach(before));
   return before;
+}
+
+// Where 每 begins in 每室10粒, 每側40枚; `i` itself where it does not.
+std::size_t ParagraphReader::beforeEach(std::size_t i) const {
+  for (std::size_t back = 2; back <= 5 && back <= i; ++back) {
+    if (!is(i - back, "每")) continue;
+    const Found& f = found_[i - back + 1];
+    return f && f.end == i ? i - back : i;
+  }
+  return i;
+}
+
+// "per locule", "per side" from the words before a number.
+std::string ParagraphReader::unitOfEach(std::size_t i) const {
+  for (std::size_t at = i; at > scope_.organEnd; --at) {
+    const std::size_t each = beforeEach(at);
+    if (each == at) continue;
+    const Concept* noun = nounAt(each + 1);
+    if (noun != nullptr) return "per " + noun->name;
+    return isAny(each + 1, {"側", "侧", "邊", "边"}) ? "per side" : std::string();
+  }
+  return {};
+}
+
+// "leaflets 5, rarely 3 or 7", 小葉5枚，稀3枚: a second number for what was counted just before.
+std::size_t ParagraphReader::readCountGoingOn(std::size_t i, const NumberRange& range) {
+  if (lastCount_.end == 0 || i <= lastCount_.end || isWordWithNumber(range.end)) return 0;
+  bool qualified = false;
+  std::size_t before = i;
+  while (before > lastCount_.end) {
+    const bool frequency = isOneOf(qualifierOf(tokens_[before - 1].text), {"rarely", "sometimes", "usually"}) || isAny(before - 1, {"通", "極", "极", "有", "occasionally"});
+    if (!frequency && !isAny(before - 1, {",", "、", "or", "或", "(", "但", "but", "very", "more", "less", "為", "为", "枚", "片", "朵", "個", "个", "條", "条", "對", "对", "pairs"})) return 0;
+    qualified = qualified || frequency || isAny(before - 1, {"or", "或"});
+    --before;
+  }
+  if (!qualified) return 0;
+  const Measure measure = measureAt(range.end);
+  const Concept* next = nounAt(measure.end);
+  if (next != nullptr && next->name != lastCount_.organ && isCountable(*next)) return 0;
+  const LastCount last = lastCount_;
+  addCount(i, measure.end, last.organ, last.piece, range, measure.unit.empty() ? last.unit : measure.unit);
+  return measure.end;
+}
+
+// "stamens numerous", "numerous stamens", 雄蕊多數: more than the author counted.
+std::size_t ParagraphReader::readNumerous(std::size_t i) {
+  const bool han = is(i, "多") && isAny(i + 1, {"數", "数"});
+  if (!han && !isAny(i, {"numerous", "many", "∞", "innumerable"})) return 0;
+  const std::size_t end = han ? i + 2 : i + 1;
+  const Concept* noun = scope_.piece != nullptr && scope_.piece->name != "blade" ? scope_.piece : scope_.organ;
+  const bool behind = scope_.organInSentence && noun != nullptr && beforeCount(i) == scope_.organEnd && scope_.place == nullptr;
+  const Concept* ahead = nounAt(end);
+  const bool before = !behind && !han && is(i, "numerous") && ahead != nullptr && !found_[end].as("organ")->everyday && ahead->columns.at("role") == "organ";
+  const bool stops = end >= tokens_.size() || tokens_[end].kind == TokenKind::Sign || isAny(end, {"and", "in", "per", "on"}) || hasTraitMeaning(end) || isHan(end);
+  if (before) noun = ahead;
+  if (!(before || (behind && stops && !is(end, "-"))) || !isCountable(*noun) || isNegated(i)) return 0;
+  const bool ofPiece = behind && noun == scope_.piece;
+  Trait trait = traitAt(i, end, ofPiece ? scope_.organ->name : noun->name, "count");
+  trait.value = "numerous";
+  if (ofPiece) trait.part = noun->name;
+  if (behind) trait.which = scope_.which;
+  evidence_ += 0.5;
+  keep(std::move(trait), before || ofPiece);
+  return end;
+}
+
+// "2-3-pinnate", 二至三回羽狀複葉: each way that the range names; the last is read as the phrase that it is.
+std::size_t ParagraphReader::readDivisions(std::size_t i) {
+  const std::optional<NumberRange> range = rangeAt(tokens_, i);
+  if (!range || range->low >= range->high || range->high > 3 || range->low < 1) return 0;
+  std::size_t last = i + 1;
+  while (last < range->end + 1 && !(found_[last] && found_[last].end > range->end && numberAt(tokens_, last) && numberAt(tokens_, last)->value == range->high)) ++last;
+  if (last > range->end || last >= tokens_.size()) return 0;
+  constexpr std::array<std::array<std::string_view, 3>, 3> series{{{"pinnate", "bipinnate", "tripinnate"}, {"trifoliolate", "biternate", "triternate"}, {"pinnately lobed", "bipinnatifid", "bipinnatifid"}}};
+  for (const auto& names : series)
+    for (const std::string_view property : {"type", "shape"}) {
+      const Concept* entry = found_[last].conceptAs(property);
+      if (entry == nullptr || entry->name != names[static_cast<std::size_t>(range->high) - 1]) continue;
+      for (int n = static_cast<int>(range->low); n < static_cast<int>(range->high); ++n) {
+        const std::string_view name = names[static_cast<std::size_t>(n) - 1];
+        if (name == entry->name) continue;
+        Trait trait = traitAt(i, found_[last].end, "leaf", std::string(property));
+        trait.value = std::string(name);
+        trait.qualifier = qualifierBefore(i);
+        if (scope_.organ != nullptr && scope_.organ->name == "leaf") trait.which = scope_.which;
+        keep(std::move(trait), true);
+      }
+      return last;
+    }
+  return 0;
 }
 
 // "petals 5", "leaflets 5-8 pairs", 小葉8-12對, 有花3-7朵. A number that goes on as a size counts nothing.
 std::size_t ParagraphReader::readCountOfOrganBefore(std::size_t i, const NumberRange& range) {
   if (scope_.organ == nullptr || !scope_.organInSentence) return 0;
   const Concept& noun = scope_.piece != nullptr && scope_.piece->name != "blade" ? *scope_.piece : *scope_.organ;
-  if (!isCountable(noun) || beforeCount(i) != scope_.organEnd || isWordWithNumber(range.end)) return 0;
-  if (scope_.place != nullptr && scope_.place->name != "surface") return 0;
+  if (isWordWithNumber(range.end)) return 0;
+  if (last_.kept && last_.category != nullptr && last_.category->property == "venation" && last_.end == i) {  // 掌狀脈5-7條
+    const Measure measure = measureAt(range.end);
+    addCount(i, measure.end, "vein", "", range, measure.unit);
+    return measure.end;
+  }
+  // "Flowers solitary or 2-3 together", 花單生或2-3朵簇生.
+  const std::size_t before = beforeCount(i);
+  const bool orSolitary = last_.kept && last_.end != 0 && before == last_.end + 1 && isAny(last_.end, {"or", "或", "to", "至"}) && !result_.traits.empty() && result_.traits.back().value == "solitary";
+  if (!isCountable(noun) || (before != scope_.organEnd && !orSolitary)) return 0;
+  if (scope_.place != nullptr) return 0;
   const Measure measure = measureAt(range.end);
   const Concept* next = nounAt(measure.end);
-  if (next != nullptr && measure.end == range.end && isHan(measure.end) && next != scope_.organ) return 0;  // 具3花
+  if (next != nullptr && isHan(measure.end) && next != scope_.organ && isCountable(*next)) return 0;  // 具3花
   const bool ofPiece = &noun == scope_.piece;
-  addCount(i, measure.end, scope_.organ->name, ofPiece ? noun.name : "", range, measure.unit);
+  const Concept* per = is(measure.end, "per") ? nounAt(measure.end + 1) : nullptr;
+  const std::string unit = !measure.unit.empty() ? measure.unit : per != nullptr ? "per " + per->name : unitOfEach(i);
+  addCount(i, measure.end, scope_.organ->name, ofPiece ? noun.name : "", range, unit);
   if (!ofPiece || !found_[scope_.organEnd - 1].as("organ")) evidence_ += 1;
-  return is(measure.end, "per") && nounAt(measure.end + 1) != nullptr ? found_[measure.end + 1].end : measure.end;
+  return per != nullptr ? found_[measure.end + 1].end : measure.end;
 }
 
 // "5 petals", "10 pairs of leaflets", 5枚花瓣, 具3～7花.
@@ -209,18 +332,27 @@ std::size_t ParagraphReader::readCountOfOrganAfter(std::size_t i, const NumberRa
   const Measure measure = measureAt(range.end);
   std::size_t at = measure.end;
   if (isAny(at, {"的"})) ++at;
-  while (at < tokens_.size() && hasTraitMeaning(at) && !isHan(at) && nounAt(at) == nullptr && at < measure.end + 3) at = found_[at].end;  // "5 white petals"
+  const auto isAdjective = [&](std::size_t k) { return k < tokens_.size() && hasTraitMeaning(k) && nounAt(k) == nullptr && (!isHan(k) || isAny(found_[k].end, {"的", "之"})); };
+  while (isAdjective(at) && at < measure.end + 3) at = found_[at].end;  // "5 white petals"
+  if (at > measure.end && isAny(at, {"的", "之"})) ++at;
   const Concept* noun = nounAt(at);
   if (noun == nullptr || isAny(i, {"one", "一"})) return 0;
   const std::string& role = noun->columns.at("role");
   const bool inside = scope_.organ != nullptr && isOneOf(scope_.organ->name, {"inflorescence", "spikelet"});
   const bool flowersHan = isHan(at) && noun->name == "flower" && inside;
+  const bool divided = isHan(i) && noun->name == "leaflet" && i >= 2 && isAny(i - 2, {"掌", "羽"}) && isAny(i - 1, {"狀", "状"});
+  if (divided && !found_[i - 2].as("type")) {  // 掌狀5小葉
+    Trait type = traitAt(i - 2, found_[at].end, "leaf", "type");
+    type.value = is(i - 2, "羽") ? "pinnate" : range.low == 3 && range.high == 3 ? "trifoliolate" : "palmate";
+    keep(std::move(type), true);
+  }
   if (flowersHan) {
     addCount(i, found_[at].end, "flower", "", range, "per inflorescence");
     evidence_ += 1;
     return found_[at].end;
   }
-  if (!isCountable(*noun) || (found_[at].as("organ")->everyday && noun->name != "flower" && role == "organ" && noun->name != "leaf")) return 0;
+  const bool introduced = scope_.organInSentence && i > 0 && (isAny(i - 1, {"of", "with", "bearing", "具", "有", "含"}) || measure.unit == "pairs");  // "pappus of 20-30 bristles"
+  if (!isCountable(*noun) || (found_[at].as("organ")->everyday && !introduced && noun->name != "flower" && role == "organ" && noun->name != "leaf")) return 0;
   if (noun->name == "leaf" && measure.end == range.end && range.low == range.high && !scope_.organInSentence) return 0;  // "2 leaves" in any prose
   const std::string organ = role == "sub" ? ownerOf(*noun, at)->name : noun->name;
   addCount(i, found_[at].end, organ, role == "sub" ? noun->name : "", range, measure.unit);

@@ -80,6 +80,8 @@ bool isKnownWord(std::string_view word) { return phrasesWith(word) != nullptr; }
 
 std::vector<Found> findPhrases(const std::vector<Token>& tokens) {
   std::vector<Found> found(tokens.size());
+  // 具刺狀鋸齒 is 具 and 刺狀鋸齒, not 具刺 and the rest: a verb gives its noun away to a longer word.
+  const auto givesWay = [&](const Found& f, std::size_t i) { return tokens[i].kind == TokenKind::Han && (tokens[i].text == "具" || tokens[i].text == "有" || tokens[i].text == "被") && f.end < tokens.size(); };
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const std::vector<Phrase>* phrases = phrasesWith(tokens[i].text);
     if (phrases == nullptr) continue;
@@ -89,6 +91,8 @@ std::vector<Found> findPhrases(const std::vector<Token>& tokens) {
         break;
       }
   }
+  for (std::size_t i = 0; i + 1 < tokens.size(); ++i)
+    if (found[i] && givesWay(found[i], i) && found[i].end < found[i + 1].end) found[i] = {};
   return found;
 }
 

@@ -35,6 +35,19 @@ bool ParagraphReader::isSentenceEnd(std::size_t i) const {
   return isHan(i + 1) || (tokens_[i + 1].spaceBefore && isCapital(i + 1));
 }
 
+bool ParagraphReader::startsSentence(std::size_t i) const { return i == 0 || isSentenceEnd(i - 1) || startsALine(i); }
+
+bool ParagraphReader::opensSentence(std::size_t i) const {
+  constexpr std::size_t most = 4;
+  for (std::size_t back = 0; back <= most && back <= i; ++back) {
+    if (startsSentence(i - back)) return true;
+    const Token& before = tokens_[i - back - 1];
+    const bool hyphen = before.text == "-";
+    if (before.kind == TokenKind::Number || (before.kind == TokenKind::Sign && !hyphen) || found_[i - back - 1].conceptAs("organ") != nullptr) return false;
+  }
+  return false;
+}
+
 // Reads what begins at token i; the token after it.
 std::size_t ParagraphReader::step(std::size_t i) {
   if (tokens_[i].kind == TokenKind::Sign) noteSign(i);
@@ -42,14 +55,21 @@ std::size_t ParagraphReader::step(std::size_t i) {
   if (!termFirst) {
     if (const std::size_t end = readAngle(i)) return end;
     if (const std::size_t end = readSizes(i)) return end;
+    if (const std::size_t end = readDivisions(i)) return end;
     if (const std::size_t end = readCount(i)) return end;
   }
+  if (const std::size_t end = readNumerous(i)) return end;
   const Found& f = found_[i];
   if (!f) return i + 1;
   if (f.conceptAs("foreign") != nullptr) weighForeign(f);
   if (f.conceptAs("which") != nullptr && f.as("organ") == nullptr) noteWhich(i);
   if (f.conceptAs("organ") != nullptr) noteNoun(i);
+  const std::size_t traits = result_.traits.size() + result_.denials.size();
   readTerm(i);
+  // 先端二裂 is of the apex, 花瓣二裂 a count of lobes.
+  const bool saidNothing = traits == result_.traits.size() + result_.denials.size();
+  if (termFirst && saidNothing && !f.conceptAs("organ"))
+    if (const std::size_t end = readCount(i)) return end;
   return f.end;
 }
 

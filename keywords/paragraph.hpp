@@ -31,6 +31,8 @@ struct Scope {
   bool subjectInClause = false;   ///< since the last . or ;
   bool subjectInSegment = false;  ///< since the last comma too
   bool commaSincePlace = false;
+  const Concept* container = nullptr;  ///< "racemes of 5-12 flowers": the racemes, when the flowers were named last
+  const Concept* member = nullptr;     ///< 花組成繖房花序: the flowers, when the inflorescence was named last
 };
 
 /// A statement that was denied, for finding contradictions.
@@ -82,10 +84,17 @@ class ParagraphReader {
   [[nodiscard]] bool isCapital(std::size_t i) const;
   [[nodiscard]] bool isSentenceEnd(std::size_t i) const;
   std::size_t step(std::size_t i);
+  /// Whether only a few words that name no organ stand between the begin of the sentence and token i.
+  [[nodiscard]] bool opensSentence(std::size_t i) const;
+  [[nodiscard]] bool startsSentence(std::size_t i) const;
 
   // scope.cpp
   [[nodiscard]] const Concept* nounAt(std::size_t i, std::string_view role = {}) const;
   [[nodiscard]] bool isVerbLeaves(std::size_t i) const;
+  [[nodiscard]] bool isSwitchedOff(std::size_t i) const;
+  [[nodiscard]] bool isBranchNoun(std::size_t i) const;
+  [[nodiscard]] bool isPlantNoun(std::size_t i) const;
+  [[nodiscard]] bool isFlowerSpokenOf() const;
   [[nodiscard]] bool isPlaceOnly(std::size_t i) const;
   [[nodiscard]] bool isPlaceOfTermBefore(std::size_t i) const;
   [[nodiscard]] bool startsALine(std::size_t i) const;
@@ -104,7 +113,17 @@ class ParagraphReader {
   // terms.cpp
   [[nodiscard]] bool hasTraitMeaning(std::size_t i) const;
   [[nodiscard]] const Concept* placeAfter(std::size_t end) const;
+  /// The organ that an adjective stands before, and which piece of it.
+  struct Ahead {
+    const Concept* organ = nullptr;
+    const Concept* piece = nullptr;
+  };
+  [[nodiscard]] Ahead nounAhead(std::size_t end) const;
   [[nodiscard]] const Concept* organAfter(std::size_t end) const;
+  [[nodiscard]] bool isPredicateBasal(std::size_t i) const;
+  [[nodiscard]] bool speaksAsTerm(std::size_t i) const;
+  [[nodiscard]] bool saysNothingOf(const Meaning& meaning, std::size_t i, const Concept* organ, const Concept* place) const;
+  [[nodiscard]] std::optional<Meaning> deeperCut(std::size_t i, const Meaning& meaning) const;
   [[nodiscard]] bool accepts(const Category& category, const Concept* organ) const;
   [[nodiscard]] const Meaning* meaningFor(const Found& f, const Concept* organ, const Concept* place) const;
   [[nodiscard]] bool isNegated(std::size_t i) const;
@@ -114,7 +133,15 @@ class ParagraphReader {
   [[nodiscard]] bool isOppositeOfLeaves(std::size_t i) const;
   void readTerm(std::size_t i);
   void startWithPlant(std::size_t i);
-  void keepTerm(std::size_t i, const Meaning& meaning, const Concept* organ, bool attributive, const Concept* place, bool placeNamed, const LastTerm& now);
+  /// Whose statement a term is.
+  struct Subject {
+    const Concept* organ = nullptr;
+    const Concept* piece = nullptr;
+    bool attributive = false;  ///< named behind the term
+    const Concept* place = nullptr;
+    bool placeNamed = false;
+  };
+  void keepTerm(std::size_t i, const Meaning& meaning, const Subject& subject, const LastTerm& now);
   void extendCompound(const Found& f, const std::string& value);
   [[nodiscard]] Trait traitAt(std::size_t first, std::size_t end, const std::string& organ, const std::string& property) const;
   void quote(Trait& trait, std::size_t first, std::size_t end) const;
@@ -133,12 +160,18 @@ class ParagraphReader {
   std::size_t readCountedWord(std::size_t i, const NumberRange& range);
   std::size_t readCountOfOrganBefore(std::size_t i, const NumberRange& range);
   std::size_t readCountOfOrganAfter(std::size_t i, const NumberRange& range);
+  std::size_t readCountGoingOn(std::size_t i, const NumberRange& range);
+  std::size_t readNumerous(std::size_t i);
+  std::size_t readDivisions(std::size_t i);
+  [[nodiscard]] std::size_t beforeEach(std::size_t i) const;
+  [[nodiscard]] std::string unitOfEach(std::size_t i) const;
   void addLobedShape(std::size_t i, std::size_t end, const NumberRange& range);
   void addCount(std::size_t first, std::size_t end, const std::string& organ, const std::string& piece, const NumberRange& range, const std::string& unit);
 
   // sizes.cpp
   [[nodiscard]] bool isAltitude(std::size_t i) const;
   std::size_t readSizes(std::size_t i);
+  [[nodiscard]] const Concept* measuredOrgan(const Size& size, const Concept* subject) const;
   std::size_t readAngle(std::size_t i);
   [[nodiscard]] const Concept* dimensionOfOrganWord() const;
 
@@ -160,6 +193,16 @@ class ParagraphReader {
   ParagraphResult result_;
   Scope scope_;
   LastTerm last_;
+  struct LastCount {
+    std::size_t end = 0;
+    std::string organ;
+    std::string piece;
+    std::string unit;
+  };
+  LastCount lastCount_;
+  std::size_t sizeEnd_ = 0;        // where the last size ended, and
+  std::string sizeQualifier_;      // how it was meant
+  bool plantInSentence_ = false;
   std::map<const Concept*, std::size_t> namedAt_;      // where each organ was named last
   std::vector<std::pair<std::size_t, std::string>> organFrom_;  // which organ was spoken of from which token on, for unknown words
   double evidence_ = 0;

@@ -1,5 +1,6 @@
 #include "keywords/quantities.hpp"
 
+#include "base/text.hpp"
 #include "keywords/words.hpp"
 
 #include <algorithm>
@@ -61,10 +62,12 @@ std::optional<SingleNumber> hanNumber(const Tokens& tokens, std::size_t first) {
 }
 
 std::optional<SingleNumber> englishNumber(const Tokens& tokens, std::size_t first) {
-  constexpr std::array<std::string_view, 13> words{"zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"};
-  const auto found = std::find(words.begin() + 1, words.end(), tokens[first].text);
-  if (found == words.end()) return std::nullopt;
-  return SingleNumber{static_cast<double>(found - words.begin()), first + 1};
+  constexpr std::array<std::string_view, 21> words{"zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen",
+                                                   "seventeen", "eighteen", "nineteen", "twenty"};
+  constexpr std::array<std::string_view, 10> tens{"", "", "", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety"};
+  if (const auto found = std::find(words.begin() + 1, words.end(), tokens[first].text); found != words.end()) return SingleNumber{static_cast<double>(found - words.begin()), first + 1};
+  if (const auto found = std::find(tens.begin() + 3, tens.end(), tokens[first].text); found != tens.end()) return SingleNumber{10.0 * static_cast<double>(found - tens.begin()), first + 1};
+  return std::nullopt;
 }
 
 // ---- ranges
@@ -95,9 +98,22 @@ std::optional<double> takeMaximum(const Tokens& tokens, std::size_t& at, double 
   if (isTo(tokens, next)) ++next;
   if (isAny(tokens, next, {"rarely", "sometimes", "稀", "to"})) ++next;
   const auto maximum = numberAt(tokens, next);
-  if (!maximum || !isClose(tokens, maximum->end) || maximum->value <= high) return std::nullopt;
-  at = maximum->end + 1;
+  if (!maximum || maximum->value <= high) return std::nullopt;
+  const std::size_t close = is(tokens, maximum->end, "+") ? maximum->end + 1 : maximum->end;  // "(8+)"
+  if (!isClose(tokens, close)) return std::nullopt;
+  at = close + 1;
   return maximum->value;
+}
+
+// "10+", 十餘, "1-several", 1至數: no upper end is given. The token after it, 0 where there is none.
+std::size_t afterOpenEnd(const Tokens& tokens, std::size_t at) {
+  if (is(tokens, at, "+") && !isOpen(tokens, at + 1)) return at + 1;
+  if (isAny(tokens, at, {"餘", "余"})) return at + 1;
+  const std::size_t joined = isTo(tokens, at) ? at + 1 : 0;
+  if (joined == 0) return 0;
+  if (isAny(tokens, joined, {"several", "many", "numerous", "more"})) return joined + 1;
+  if (isAny(tokens, joined, {"多", "數", "数"}) && isAny(tokens, joined + 1, {"數", "数"})) return joined + 2;
+  return isAny(tokens, joined, {"多", "數", "数"}) ? joined + 1 : 0;
 }
 
 // "3- or 4-", "3- to 5-": the hyphen belongs to the word that follows.
@@ -120,7 +136,7 @@ std::optional<Named> namedAt(const std::vector<Found>& found, std::size_t at, st
 }
 
 std::optional<Named> dimensionEndingAt(const std::vector<Found>& found, std::size_t end) {
-  for (std::size_t back = 1; back <= 4 && back <= end; ++back) {
+  for (std::size_t back = std::min<std::size_t>(4, end); back >= 1; --back) {
     const Found& f = found[end - back];
     if (f && f.end == end && f.conceptAs("dimension") != nullptr) return Named{f.conceptAs("dimension")->name, end - back};
   }
@@ -153,18 +169,73 @@ std::string takeDimension(const Tokens& tokens, const std::vector<Found>& found,
   return dimension->name;
 }
 
+double metresIn(std::string_view unit) {
+  for (const Concept& entry : categoryOf("unit").concepts)
+    if (entry.name == unit) return parseNumber(entry.columns.at("metres")).value_or(0);
+  return 0;
+}
+
+// "in" is an inch and much more often a little word: "5 in long", "5 in.", but not "13 in 2 series".
+bool isInchRatherThanIn(const Tokens& tokens, const std::vector<Found>& found, std::size_t unitAt, std::size_t end) {
+  if (!is(tokens, unitAt, "in") || end >= tokens.size() || tokens[end].kind == TokenKind::Sign) return true;
+  return namedAt(found, end, "dimension").has_value() || isAny(tokens, end, {"x", "by", "or", "and", "tall", "deep"});
+}
+
+// "5 mm-1 cm", 2公分至5公分: the upper end with a unit of its own. The range becomes one in that unit.
+void takeUpperWithUnit(const Tokens& tokens, const std::vector<Found>& found, NumberRange& range, std::string& unit, std::size_t& end) {
+  if (range.low != range.high || range.minimum || range.maximum || !isAny(tokens, end, {"-", "to", "至", "到"})) return;
+  const std::optional<NumberRange> upper = rangeAt(tokens, end + 1);
+  if (!upper || upper->low != upper->high) return;
+  const auto upperUnit = namedAt(found, upper->end, "unit");
+  if (!upperUnit || metresIn(upperUnit->name) <= 0) return;
+  const double low = upperUnit->name == unit ? range.low : std::round(range.low * metresIn(unit) / metresIn(upperUnit->name) * 1e6) / 1e6;
+  if (low > upper->high) return;
+  range.low = low;
+  range.high = upper->high;
+  range.maximum = upper->maximum;
+  unit = upperUnit->name;
+  end = upperUnit->end;
+}
+
+// 長5-8、寬3-4公分, "5-8 long and 3-4 cm wide": the unit stands once, behind the last. Nothing where it does not.
+std::string unitOfNext(const Tokens& tokens, const std::vector<Found>& found, std::size_t at) {
+  if (!isAny(tokens, at, {",", "、", "and", "by"})) return {};
+  std::size_t next = at + 1;
+  const bool named = namedAt(found, next, "dimension").has_value();
+  if (named) next = found[next].end;
+  while (isAny(tokens, next, {"約", "约", "about", "ca", "."})) ++next;
+  const std::optional<NumberRange> range = rangeAt(tokens, next);
+  if (!range) return {};
+  const auto unit = namedAt(found, range->end, "unit");
+  if (!unit || (!named && !namedAt(found, unit->end, "dimension"))) return {};
+  return isInchRatherThanIn(tokens, found, range->end, unit->end) ? unit->name : std::string();
+}
+
 // A range, its unit and the word after it, as far as they stand.
 std::optional<Measured> measuredAt(const Tokens& tokens, const std::vector<Found>& found, std::size_t at) {
   const std::optional<NumberRange> range = rangeAt(tokens, at);
   if (!range) return std::nullopt;
   Measured m{*range, {}, {}, range->end};
   const std::size_t unitAt = is(tokens, m.end, "-") && namedAt(found, m.end + 1, "unit") ? m.end + 1 : m.end;  // "a 3-cm-long blade"
-  if (const auto unit = namedAt(found, unitAt, "unit")) {
+  const auto unit = namedAt(found, unitAt, "unit");
+  if (unit && isInchRatherThanIn(tokens, found, unitAt, unit->end)) {
     m.unit = unit->name;
     m.end = unit->end;
+    takeUpperWithUnit(tokens, found, m.range, m.unit, m.end);
     // "5-8 cm (-12)": the exception behind the unit.
     if (!m.range.maximum) m.range.maximum = takeMaximum(tokens, m.end, m.range.high);
     m.dimension = takeDimension(tokens, found, m.end);
+    return m;
+  }
+  const bool dimensionBefore = dimensionEndingAt(found, at).has_value();
+  const auto dimensionBehind = namedAt(found, m.end, "dimension");
+  if (dimensionBefore) {
+    m.unit = unitOfNext(tokens, found, m.end);
+  } else if (dimensionBehind && tokens[m.end].kind == TokenKind::Word) {
+    m.unit = unitOfNext(tokens, found, dimensionBehind->end);
+    if (m.unit.empty()) return m;
+    m.dimension = dimensionBehind->name;
+    m.end = dimensionBehind->end;
   }
   return m;
 }
@@ -213,6 +284,12 @@ std::optional<NumberRange> rangeAt(const Tokens& tokens, std::size_t first) {
       at = high->end;
     }
   }
+  if (const std::size_t open = range.high == range.low ? afterOpenEnd(tokens, at) : 0) {
+    range.open = true;
+    at = open;
+  } else if (is(tokens, at, "+")) {
+    ++at;
+  }
   range.maximum = takeMaximum(tokens, at, range.high);
   range.end = at;
   return range;
@@ -230,11 +307,31 @@ Lead leadBefore(const Tokens& tokens, const std::vector<Found>& found, std::size
       return lead;
     }
     const std::string_view before = tokens[at - 1].text;
-    if (isOneOf(before, {"to", "達", "达", "reaching", "≤", "<"})) {
+    const auto isBefore = [&](std::size_t back, Words words) { return at > back && isOneOf(tokens[at - 1 - back].text, words); };
+    const bool notReaching = isOneOf(before, {"及", "到", "足", "逾"}) && isBefore(1, {"不", "未"});
+    const bool notBeyond = isOneOf(before, {"過", "过"}) && isBefore(1, {"超"}) && isBefore(2, {"不"});
+    if (notReaching || notBeyond) {
+      lead.qualifier = "up to";
+      lead.first = at -= notReaching ? 2 : 3;
+      continue;
+    }
+    if (isOneOf(before, {"過", "过"}) && isBefore(1, {"超"})) {
+      lead.qualifier = "more than";
+      lead.first = at -= 2;
+      continue;
+    }
+    if (isOneOf(before, {"to", "達", "达", "reaching", "reaches", "≤", "<", "under", "attaining", "attains"})) {
       lead.qualifier = "up to";
       lead.first = at - 1;
     } else if (isOneOf(before, {"ca", "about", "approximately", "約", "约", "approx", "c", "circa", "±", "around", "roughly"})) {
       lead.qualifier = lead.qualifier.empty() ? "about" : lead.qualifier;
+      lead.first = at - 1;
+    } else if (before == "exceeding" && isBefore(1, {"not"})) {
+      lead.qualifier = "up to";
+      lead.first = at -= 2;
+      continue;
+    } else if (isOneOf(before, {"over", ">", "≥", "exceeding"})) {
+      lead.qualifier = "more than";
       lead.first = at - 1;
     } else if (isOneOf(before, {"up", "可", "長可", "最"}) && lead.qualifier == "up to") {
       lead.first = at - 1;
@@ -242,7 +339,7 @@ Lead leadBefore(const Tokens& tokens, const std::vector<Found>& found, std::size
       lead.qualifier = "up to";
       lead.first = at - 2;
       return lead;
-    } else if (!isOneOf(before, {".", ":", "為", "为", "有", "is", "are", "of", "各", "皆"})) {
+    } else if (!isOneOf(before, {".", ":", "為", "为", "有", "is", "are", "of", "各", "皆", "均", "都", "from", "between"})) {
       return lead;
     }
     --at;

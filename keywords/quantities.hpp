@@ -19,6 +19,7 @@ struct NumberRange {
   double high = 0;
   std::optional<double> maximum;
   std::size_t end = 0;  ///< the token after it
+  bool open = false;    ///< "1-several", 十餘: at least `low`
 };
 
 /// A single number that begins at token `first`, in digits, English words or Chinese numerals (十二, 一點五).

@@ -20,17 +20,48 @@ std::vector<std::string> ownersOf(const Concept& piece) { return splitList(piece
 
 bool ParagraphReader::isVerbLeaves(std::size_t i) const {
   if (!is(i, "leaves")) return false;
+  // "Leaves at flowering time 3-6 cm": at the begin of a sentence or clause they are leaves.
+  const bool opens = startsSentence(i) || isAny(i - 1, {";", ":", ",", "(", ")"}) || (found_[i - 1] && isAny(i - 1, {"basal", "lower", "upper", "cauline", "stem", "young", "mature"}));
+  if (opens && isAny(i + 1, {"at", "to", "after", "early", "no", "for", "behind"})) return false;
   const bool object = isAny(i + 1, {"the", "a", "an", "his", "her", "him", "them", "it", "us", "me", "their", "its", "my", "your", "our", "no", "for", "behind", "home", "little", "much",
                                     "every", "at", "to", "after", "early", "tomorrow", "town"});
   const bool subject = i > 0 && isAny(i - 1, {"he", "she", "it", "who", "which", "that", "this", "never", "always", "one", "train", "bus"});
   return object || subject;
 }
 
+bool ParagraphReader::isFlowerSpokenOf() const {
+  return std::any_of(namedAt_.begin(), namedAt_.end(), [](const auto& named) {
+    return isOneOf(named.first->name, {"flower", "corolla", "petal", "calyx", "sepal", "inflorescence", "perianth", "wing petal"});
+  });
+}
+
+// 分枝橢圓形: branches, and not that something is branched, where the words open a clause that goes on about them.
+bool ParagraphReader::isBranchNoun(std::size_t i) const {
+  const bool opens = i == 0 || tokens_[i - 1].kind == TokenKind::Sign || startsALine(i);
+  const std::size_t next = i + 2;
+  const bool goesOn = next < tokens_.size() && tokens_[next].kind != TokenKind::Sign && !isAny(next, {"多", "少", "繁", "稀", "密", "疏", "甚", "極", "极", "較", "较", "性", "生", "於", "于", "或", "成"});
+  return opens ? goesOn : next < tokens_.size() && tokens_[next].kind == TokenKind::Number;
+}
+
+// "A tufted perennial reaching 30 cm", "Annuals, 10-60 cm", but not "leaves evergreen".
+bool ParagraphReader::isPlantNoun(std::size_t i) const {
+  if (!isAny(i, {"annual", "annuals", "biennial", "biennials", "perennial", "perennials", "evergreen", "evergreens"}) || !opensSentence(i)) return false;
+  const std::size_t next = i + 1;
+  if (next >= tokens_.size()) return true;
+  return tokens_[next].kind == TokenKind::Number || isAny(next, {",", ";", ".", "to", "reaching", "with", "up", "growing", "about", "ca", "from", "forming", "(", "usually"});
+}
+
+// Words that name an organ and say something as well, where here they only say something.
+bool ParagraphReader::isSwitchedOff(std::size_t i) const { return is(i, "分") && found_[i].end == i + 2 && !isBranchNoun(i); }
+
 // The organ, piece or place that the phrase at token i names, of that role where one is given.
 const Concept* ParagraphReader::nounAt(std::size_t i, std::string_view role) const {
   if (i >= tokens_.size() || isVerbLeaves(i)) return nullptr;
   const Concept* noun = found_[i].conceptAs("organ");
-  if (noun == nullptr || (!role.empty() && roleOf(*noun) != role)) return nullptr;
+  if (noun == nullptr || (!role.empty() && roleOf(*noun) != role) || isSwitchedOff(i)) return nullptr;
+  const std::size_t end = found_[i].end;
+  const bool likeness = is(end, "like") || (is(end, "-") && isAny(end + 1, {"like", "shaped"}));  // "grass-like leaves"
+  if (likeness || (isAny(i, {"standard", "keel", "lip"}) && end == i + 1 && !isFlowerSpokenOf())) return nullptr;
   // 花 in 花費, 葉 in a name: one character of a longer word that the vocabulary does not know.
   const bool oneHan = isHan(i) && found_[i].end == i + 1;
   const bool aloneInWord = oneHan && tokens_[i].insideWord && !(i + 1 < tokens_.size() && found_[i + 1]) && !(i > 0 && (found_[i - 1] || isAny(i - 1, {"的", "本", "具"})));
@@ -43,11 +74,18 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   const bool isMeasuredItself = found_[i].end < tokens_.size() && tokens_[found_[i].end].kind == TokenKind::Number;  // "in racemes 5-10 cm long"
   std::size_t before = i - 1;
   if (before > 0 && isAny(before, {"the", "its", "each", "a"})) --before;
-  while (before > 0 && isAny(before, {"lower", "upper", "young", "basal", "middle", "old", "lateral", "leaf"})) --before;
+  while (before > 0 && isAny(before, {"lower", "upper", "young", "basal", "middle", "old", "lateral", "leaf", "short", "long", "spur", "juvenile", "fertile", "sterile", "flowering", "vegetative", "new",
+                                      "current", "previous", "year", "second", "adult", "subtending", "ultimate", "leafy", "terminal", "main", "mature", "same", "opposite"}))
+    --before;
+  if (isHan(i) && isAny(before, {"每", "各"})) return scope_.organInSentence;
+  for (std::size_t back = 1; isHan(i) && back <= 3 && back <= i; ++back) {  // 在短枝上, 於長枝
+    if (tokens_[i - back].kind != TokenKind::Han) break;
+    if (isAny(i - back, {"在", "於", "于"})) return scope_.organInSentence;
+  }
   if (isAny(before, {"without", "lacking", "no", "無", "无", "缺"}) && !is(i, "毛")) return true;
   if (before > 0 && is(before, "具") && isAny(before - 1, {"不", "未"})) return true;
   if (isAny(before, {"與", "与"}) && isAny(found_[i].end, {"呈", "成", "夾", "夹", "間", "间", "等", "對", "对", "同"})) return true;
-  if (isAny(before, {"than", "to", "與", "与", "和", "短", "exceeding", "於", "于", "near", "towards", "from", "among", "between", "above", "below", "on"}) && !isMeasuredItself) {
+  if (isAny(before, {"than", "to", "與", "与", "和", "短", "exceeding", "於", "于", "near", "towards", "from", "among", "between", "above", "below", "on", "after", "before", "per", "until", "subtending", "opposite"}) && !isMeasuredItself) {
     const bool afterTo = is(before, "to") && before > 0 && (nounAt(before - 1) != nullptr || found_[before - 1]);  // "shrubs to small trees"
     return scope_.organInSentence && !afterTo && !(isAny(before, {"和", "與", "与"}) && before > 0 && nounAt(before - 1) != nullptr);
   }
@@ -74,7 +112,8 @@ bool ParagraphReader::isChained(std::size_t i) const {
 
 bool ParagraphReader::isRightBehindOrgan(std::size_t i) const {
   std::size_t at = i;
-  while (at > scope_.organEnd && (isAny(at - 1, {"are", "is", ":", "呈", "為", "为", "有", "具", "ca", ".", "up", "to", "約", "约", "長", "长", "高", "(", "可", "達", "达"}) || !qualifierOf(tokens_[at - 1].text).empty()))
+  while (at > scope_.organEnd && (isAny(at - 1, {"are", "is", ":", "呈", "為", "为", "有", "具", "ca", ".", "up", "to", "約", "约", "長", "长", "高", "(", "可", "達", "达", "reaching", "均", "from", "between", "±", "about", "less", "than",
+                                              "not", "exceeding", "over", "under", "僅", "仅", "只", "全", "皆", "都"}) || !qualifierOf(tokens_[at - 1].text).empty()))
     --at;
   return scope_.organ != nullptr && at == scope_.organEnd && i >= scope_.organEnd;
 }
@@ -86,6 +125,8 @@ const Concept* ParagraphReader::ownerOf(const Concept& piece, std::size_t i) con
   for (std::size_t k = i; k < found_[i].end; ++k) {
     if (is(k, "萼")) return &organNamed("calyx");
     if (is(k, "冠")) return &organNamed("corolla");
+    if (is(k, "被")) return &organNamed("perianth");
+    if (isAny(k, {"柱", "style", "stylar"})) return &organNamed("style");
   }
   const auto canHave = [&](const Concept& organ) { return std::find(owners.begin(), owners.end(), organ.name) != owners.end(); };
   if (scope_.organ != nullptr && canHave(*scope_.organ)) return scope_.organ;
@@ -122,6 +163,7 @@ std::string ParagraphReader::whichBefore(std::size_t i) const {
 void ParagraphReader::noteSign(std::size_t i) {
   const bool sentence = isSentenceEnd(i);
   if (sentence) {
+    plantInSentence_ = false;
     scope_.organInSentence = false;
     scope_.piece = nullptr;
     scope_.which.clear();
@@ -164,13 +206,19 @@ void ParagraphReader::noteOrgan(std::size_t i, const Concept& organ) {
   const Concept* partner = together ? scope_.organ : nullptr;
   // A plant or a twig bears what follows ("a shrub with opposite, ovate leaves"); it is not what the adjectives are about.
   const bool isSubject = !bears(organ) || isRightBehindOrgan(i);
-  scope_ = {&organ, partner, nullptr, nullptr, whichBefore(i), found_[i].end, true, isSubject, true, false};
+  plantInSentence_ = plantInSentence_ || organ.name == "plant";
+  const bool counted = i > 0 && (tokens_[i - 1].kind == TokenKind::Number || isAny(i - 1, {"朵", "個", "个"}));
+  const bool inInflorescence = scope_.organ != nullptr && isOneOf(scope_.organ->name, {"inflorescence", "spikelet"}) && scope_.subjectInClause;
+  const Concept* container = organ.name == "flower" && inInflorescence && counted ? scope_.organ : nullptr;
+  const bool madeOf = organ.name == "inflorescence" && i > 0 && isAny(i - 1, {"成", "為", "为", "呈"}) && scope_.organ != nullptr && scope_.organ->name == "flower" && scope_.subjectInClause;
+  const Concept* member = madeOf ? scope_.organ : nullptr;
+  scope_ = {&organ, partner, nullptr, nullptr, whichBefore(i), found_[i].end, true, isSubject, true, false, container, member};
   organFrom_.emplace_back(i, organ.name);
 }
 
 void ParagraphReader::notePiece(std::size_t i, const Concept& piece) {
   // "wings", "teeth", "scale" are no pieces of a plant before any of its organs was named.
-  const bool isWeak = found_[i].as("organ")->everyday && namedAt_.empty() && scope_.organ == nullptr;
+  const bool isWeak = found_[i].as("organ")->everyday && namedAt_.empty() && scope_.organ == nullptr && !startsSentence(i);
   if (isWeak || isPlaceOnly(i)) return;
   const Concept* owner = ownerOf(piece, i);
   if (!found_[i].as("organ")->everyday) weighNoun(i, *owner);
@@ -215,7 +263,7 @@ void ParagraphReader::noteWhich(std::size_t i) {
 
 void ParagraphReader::enterLeaf(std::size_t end) {
   const std::string which = scope_.organ != nullptr && scope_.organ->name == "leaf" ? scope_.which : "";
-  scope_ = {&organNamed("leaf"), nullptr, nullptr, nullptr, which, end, true, true, true, false};
+  scope_ = {&organNamed("leaf"), nullptr, nullptr, nullptr, which, end, true, true, true, false, nullptr, nullptr};
   namedAt_[scope_.organ] = end;
 }
 

@@ -20,11 +20,14 @@ std::size_t ParagraphReader::readSizes(std::size_t i) {
   const bool ofPlace = scope_.place != nullptr && scope_.place->name != "surface" && !scope_.commaSincePlace;
   const bool elsewhere = isAltitude(i) || isAny(end, {"a", "above", "asl", "apart", "below", "deep", "from", "away"});
   const Concept* attributive = organAfter(end);
-  const Concept* organ = attributive != nullptr && attributive != scope_.organ && !scope_.subjectInClause ? attributive : scope_.organ;
-  if (!(scope_.organInSentence || organ == attributive) || organ == nullptr || ofPlace || elsewhere) return end;
+  const Concept* subject = attributive != nullptr && attributive != scope_.organ && !scope_.subjectInClause ? attributive : scope_.organ;
+  const Concept* organ = measuredOrgan(sizes.front(), subject);
+  if (!(scope_.organInSentence || subject == attributive) || organ == nullptr || ofPlace || elsewhere) return end;
   const Concept* piece = organ == scope_.organ ? scope_.piece : nullptr;
   const std::string& bare = piece != nullptr ? piece->columns.at("size") : organ->columns.at("size");
-  for (const Size& size : sizes) {
+  const bool goesOn = sizeEnd_ != 0 && sizes.front().first == sizeEnd_ + 1 && is(sizeEnd_, "and");  // "up to 20 cm long and 3 mm wide"
+  for (Size size : sizes) {
+    if (goesOn && size.qualifier.empty()) size.qualifier = sizeQualifier_ == "up to" ? sizeQualifier_ : std::string();
     // 胸徑 names the trunk and the diameter in one word; the organ's own word can say what a bare number measures.
     const Concept* ownWord = scope_.organEnd > 0 && isRightBehindOrgan(size.first) && size.dimension.empty() ? dimensionOfOrganWord() : nullptr;
     const std::string property = !size.dimension.empty() ? size.dimension : ownWord != nullptr ? ownWord->name : bare;
@@ -37,7 +40,7 @@ std::size_t ParagraphReader::readSizes(std::size_t i) {
       bodySeen_ = true;
     }
     Trait trait = traitAt(size.first, size.end, organ->name, property);
-    const bool onlyUpTo = size.qualifier == "up to" && size.range.low == size.range.high;
+    const bool onlyUpTo = size.qualifier == "up to" && size.range.low == size.range.high && !size.range.minimum;
     if (!onlyUpTo) trait.low = size.range.low;
     trait.high = size.range.high;
     trait.minimum = size.range.minimum;
@@ -48,7 +51,23 @@ std::size_t ParagraphReader::readSizes(std::size_t i) {
     trait.which = scope_.which;
     keep(std::move(trait), organ != scope_.organ);
   }
+  sizeEnd_ = end;
+  sizeQualifier_ = result_.traits.empty() ? std::string() : result_.traits.back().qualifier;
   return end;
+}
+
+// Mostly the organ in scope. 連葉柄長5公分 of leaflets measures the leaf; the height beside a trunk is the tree's; behind a comma
+// the length is that of the raceme whose flowers were counted, the diameter that of the flowers that make up the head.
+const Concept* ParagraphReader::measuredOrgan(const Size& size, const Concept* subject) const {
+  if (subject == nullptr) return nullptr;
+  if (subject->name == "leaflet" && isAny(size.first, {"連", "连"})) return &organNamed("leaf");
+  const bool beside = !isRightBehindOrgan(size.first);
+  if (subject->name == "branch" && size.dimension == "height" && beside) return &organNamed(namedAt_.contains(&organNamed("stem")) ? "stem" : "plant");
+  if (isOneOf(subject->name, {"trunk", "bark"}) && size.dimension == "height" && plantInSentence_ && beside) return &organNamed("plant");
+  const bool afterComma = beside && !scope_.subjectInSegment;
+  if (scope_.container != nullptr && afterComma && (size.dimension.empty() || size.dimension == "length")) return scope_.container;
+  if (scope_.member != nullptr && afterComma && size.dimension == "diameter") return scope_.member;
+  return subject;
 }
 
 const Concept* ParagraphReader::dimensionOfOrganWord() const {

@@ -34,33 +34,42 @@ const Concept* ParagraphReader::placeAfter(std::size_t end) const {
   return nounAt(at, "region");
 }
 
-// The organ in "opposite, broadly ovate leaves", "對生的葉", seen from behind an adjective.
-const Concept* ParagraphReader::organAfter(std::size_t end) const {
+// The organ in "opposite, broadly ovate leaves", "對生的葉", seen from behind an adjective; or the piece in "5 triangular lobes".
+ParagraphReader::Ahead ParagraphReader::nounAhead(std::size_t end) const {
   bool comma = false;
+  bool afterComma = false;  // with no term since: 卵形，側裂片
   bool linked = false;  // 的
   std::size_t at = end;
   for (int steps = 0; steps < 10 && at < tokens_.size(); ++steps) {
-    if (const Concept* organ = nounAt(at); organ != nullptr && !isOneOf(organ->columns.at("role"), {"region", "sub"})) {
-      if (startsALine(at) || (at > 0 && isAny(at - 1, {",", "、", ";"}))) return nullptr;
-      const Concept* named = organ->columns.at("role") == "blade" ? &organNamed("leaf") : organ;
-      if (isHan(at)) return linked || !scope_.subjectInSegment ? named : nullptr;
-      return !comma || !scope_.subjectInClause ? named : nullptr;
+    if (isPlantNoun(at)) return {&organNamed("plant"), nullptr};
+    if (const Concept* organ = nounAt(at); organ != nullptr && organ->columns.at("role") != "region") {
+      if (startsALine(at) || afterComma) return {};
+      const bool isPiece = organ->columns.at("role") == "sub";
+      const Concept* named = organ->columns.at("role") == "blade" ? &organNamed("leaf") : isPiece ? ownerOf(*organ, at) : organ;
+      const bool holds = isHan(at) ? linked || !scope_.subjectInSegment : !comma || !scope_.subjectInClause;
+      return holds ? Ahead{named, isPiece ? organ : nullptr} : Ahead{};
     }
     if (isAny(at, {"的", "之"})) {
       linked = true;
       ++at;
     } else if (isAny(at, {",", "、"})) {
-      comma = true;
+      comma = afterComma = true;
       ++at;
     } else if (isAny(at, {"and", "or", "to", "-", "至", "或", "和"}) || !qualifierOf(tokens_[at].text).empty()) {
       ++at;
     } else if (hasTraitMeaning(at) || (found_[at] && found_[at].conceptAs("which") != nullptr)) {
+      afterComma = afterComma && !hasTraitMeaning(at);
       at = found_[at].end;
     } else {
-      return nullptr;
+      return {};
     }
   }
-  return nullptr;
+  return {};
+}
+
+const Concept* ParagraphReader::organAfter(std::size_t end) const {
+  const Ahead ahead = nounAhead(end);
+  return ahead.piece == nullptr ? ahead.organ : nullptr;
 }
 
 bool ParagraphReader::accepts(const Category& category, const Concept* organ) const {
@@ -74,15 +83,19 @@ const Meaning* ParagraphReader::meaningFor(const Found& f, const Concept* organ,
   const Meaning* whole = nullptr;
   const Meaning* loose = nullptr;  // of a place that is not named: "leaves ovate, acute, entire"
   const Meaning* other = nullptr;
+  const Meaning* own = nullptr;  // "stems succulent" is of the stem, "plants succulent" a life form
+  const bool ofOrgan = organ != nullptr && organ->name != "plant";
   for (const Meaning& m : f.phrase->meanings) {
     if (isGrammarWord(*m.category)) continue;
     if (place != nullptr && m.category->part == place->name) return &m;
     const bool fits = accepts(*m.category, organ);
-    if (fits && m.category->part.empty() && whole == nullptr) whole = &m;
+    if (fits && ofOrgan && m.category->ownOrgan && own == nullptr) own = &m;
+    else if (fits && m.category->part.empty() && whole == nullptr) whole = &m;
     if (fits && !m.category->part.empty() && loose == nullptr) loose = &m;
     if (!fits && other == nullptr) other = &m;
   }
   if (whole != nullptr) return whole;
+  if (own != nullptr && (loose == nullptr || !isRightBehindOrgan(f.first))) return own;
   return loose != nullptr ? loose : other;
 }
 
@@ -164,18 +177,21 @@ void ParagraphReader::extendCompound(const Found& f, const std::string& value) {
   trait.text = std::string(text_.substr(trait.span.begin - firstByte_, trait.span.end - trait.span.begin));
 }
 
-void ParagraphReader::keepTerm(std::size_t i, const Meaning& meaning, const Concept* organ, bool attributive, const Concept* place, bool placeNamed, const LastTerm& now) {
+void ParagraphReader::keepTerm(std::size_t i, const Meaning& meaning, const Subject& subject, const LastTerm& now) {
   const Found& f = found_[i];
+  const auto& [organ, piece, attributive, place, placeNamed] = subject;
   const Category& category = *meaning.category;
   const bool ofForm = isOneOf(category.property, {"arrangement", "shape", "type", "margin", "apex", "base"});
   const bool fitsBody = organ != nullptr && category.property == "shape" && (organ->name == "root" || (organ->name == "plant" && !isOutline(category, *meaning.entry)));
   const bool perennial = category.property == "duration" && isOneOf(meaning.entry->name, {"annual", "biennial", "perennial"});
-  const bool takesDefault = organ == nullptr || category.ownOrgan || perennial || !accepts(category, organ) || (ofForm && isBody(*organ) && !fitsBody);
+  // 節片倒卵形: a flat shape said of a stem itself stays with it.
+  const bool ofStemItself = organ != nullptr && category.property == "shape" && !attributive && now.linked && isOneOf(organ->name, {"stem", "branch"});
+  const bool takesDefault = organ == nullptr || category.ownOrgan || perennial || (!ofStemItself && (!accepts(category, organ) || (ofForm && isBody(*organ) && !fitsBody)));
   const bool placeHolds = place != nullptr && isOneOf(place->name, {"apex", "base"}) && category.property == "shape" && (placeNamed || !scope_.commaSincePlace);
   Trait trait = traitAt(f.first, f.end, takesDefault ? category.defaultOrgan : organ->name, placeHolds ? place->name : category.property);
   trait.value = meaning.entry->name;
   trait.qualifier = now.qualifier;
-  if (!takesDefault && !attributive && scope_.piece != nullptr) trait.part = scope_.piece->name;
+  if (!takesDefault && piece != nullptr) trait.part = piece->name;
   if (!takesDefault && !attributive) trait.which = scope_.which;
   if (trait.part.empty() && place != nullptr && place->name == "surface" && !scope_.commaSincePlace) trait.part = "surface";
   if (now.negated) {
@@ -186,26 +202,72 @@ void ParagraphReader::keepTerm(std::size_t i, const Meaning& meaning, const Conc
   keep(std::move(trait), attributive);
 }
 
+// A phrase that also names an organ is read as a term where it is that organ here (複葉, racemes), or only a term (分枝).
+bool ParagraphReader::speaksAsTerm(std::size_t i) const {
+  if (is(i, "分") && found_[i].end == i + 2) return isSwitchedOff(i);
+  return nounAt(i) != nullptr;
+}
+
 // "Biennial, erect, 60-120 cm tall": a description that begins with what only whole plants are.
 void ParagraphReader::startWithPlant(std::size_t i) {
   const Meaning* duration = found_[i].as("duration");
   const bool ofYears = duration != nullptr && isOneOf(duration->entry->name, {"annual", "biennial", "perennial", "evergreen", "deciduous"});
-  const bool begins = i == 0 || isSentenceEnd(i - 1);
-  if (!ofYears || !begins || scope_.organInSentence || !isAny(found_[i].end, {",", ";", ".", "，"})) return;
-  scope_ = {&organNamed("plant"), nullptr, nullptr, nullptr, {}, i, true, false, true, false};
+  const bool habit = found_[i].as("habit") != nullptr && isAny(found_[i].end, {"by", "over", "up"});  // "Climbing by tendrils"
+  const bool begins = startsSentence(i) && (habit || (ofYears && isAny(found_[i].end, {",", ";", ".", "，"})));
+  if (scope_.organInSentence || (!begins && !isPlantNoun(i))) return;
+  plantInSentence_ = true;
+  scope_ = {&organNamed("plant"), nullptr, nullptr, nullptr, {}, i, true, false, true, false, nullptr, nullptr};
+}
+
+// "Leaves 3-5, basal": where they stand; in "basal leaves" and "basal and cauline" only which are meant.
+bool ParagraphReader::isPredicateBasal(std::size_t i) const {
+  const bool ofLeaf = scope_.organ != nullptr && scope_.organ->name == "leaf" && scope_.subjectInClause && scope_.which.empty();
+  const bool goesOn = isAny(i + 1, {"and", "or", "to", "&", "-"}) || (i + 1 < tokens_.size() && found_[i + 1].conceptAs("organ") != nullptr);
+  return ofLeaf && !goesOn && (isRightBehindOrgan(i) || isChained(i) || is(i - 1, ","));
+}
+
+// Words that mean something else beside that organ: a solitary trunk is no inflorescence, fruits in pairs do not stand opposite,
+// a base cut deeply into a heart has no lobed margin.
+bool ParagraphReader::saysNothingOf(const Meaning& meaning, std::size_t i, const Concept* organ, const Concept* place) const {
+  const std::string& property = meaning.category->property;
+  const std::string& value = meaning.entry->name;
+  const std::string_view name = organ != nullptr ? std::string_view(organ->name) : std::string_view{};
+  if (property == "type" && value == "solitary")
+    return isOneOf(name, {"stem", "trunk", "leaf", "thorn", "branch", "seed", "bulb", "tuber", "root", "ovule", "pseudobulb", "tendril", "carpel", "stamen", "style", "rhizome", "corm", "plant"});
+  if (property == "arrangement" && value == "opposite" && isAny(i, {"in", "paired", "成"})) return isOneOf(name, {"flower", "fruit", "inflorescence", "thorn", "stamen", "seed", "bract", "plant"});
+  if (property == "arrangement" && value == "rosette" && is(i, "basal") && found_[i].end == i + 1) return !isPredicateBasal(i);
+  if (property == "margin" && isOneOf(value, {"lobed", "sinuate", "incised"})) return place != nullptr && isOneOf(place->name, {"base", "apex"});
+  return is(found_[i].end, "like") || (is(found_[i].end, "-") && is(found_[i].end + 1, "like"));
+}
+
+// 羽狀淺裂至深裂: the second half is of the same kind as the first.
+std::optional<Meaning> ParagraphReader::deeperCut(std::size_t i, const Meaning& meaning) const {
+  const bool cut = meaning.category->property == "margin" && meaning.entry->name == "lobed" && isHan(i);
+  if (!cut || !last_.kept || last_.category == nullptr || last_.category->property != "shape" || last_.end + 1 != i || !isAny(i - 1, {"至", "或", "到", "、"})) return std::nullopt;
+  const std::string& before = result_.traits.back().value;
+  if (!isOneOf(before, {"pinnately lobed", "pinnatisect", "palmately lobed"})) return std::nullopt;
+  const std::string_view value = before == "palmately lobed" ? "palmately lobed" : isAny(i, {"深", "全"}) ? "pinnatisect" : "pinnately lobed";
+  for (const Concept& entry : last_.category->concepts)
+    if (entry.name == value) return Meaning{last_.category, &entry, false};
+  return std::nullopt;
 }
 
 void ParagraphReader::readTerm(std::size_t i) {
   const Found& f = found_[i];
   if (!hasTraitMeaning(i) || isOppositeOfLeaves(i)) return;
   startWithPlant(i);
-  if (f.as("organ") != nullptr && nounAt(i) == nullptr) return;
-  const Concept* attributive = organAfter(f.end);
+  if (f.as("organ") != nullptr && !speaksAsTerm(i)) return;
+  const Ahead ahead = nounAhead(f.end);
+  const Concept* attributive = ahead.organ;
   const Concept* organ = attributive != nullptr ? attributive : scope_.organ;
   const Concept* named = placeAfter(f.end);
   const Concept* place = named != nullptr ? named : (attributive != nullptr ? nullptr : scope_.place);
   const Meaning* meaning = meaningFor(f, organ, place);
-  if (meaning == nullptr) return;
+  if (meaning == nullptr || saysNothingOf(*meaning, i, organ, place)) return;
+  const std::optional<Meaning> deeper = deeperCut(i, *meaning);
+  if (deeper) meaning = &*deeper;
+  // 螺旋狀排列的稜: said of what it stands before or of nothing.
+  if (attributive != nullptr && !meaning->category->ownOrgan && (!accepts(*meaning->category, attributive) || (ahead.piece != nullptr && meaning->category->property == "arrangement"))) return;
   const bool atItsPlace = place != nullptr && place->name == meaning->category->part;
   const bool ofBase = meaning->category->part == "base" || (meaning->category->part == "apex" && isOneOf(meaning->entry->name, {"rounded", "truncate", "bilobed"}));
   if (meaning->everyday && ofBase && !atItsPlace) return;  // "sepals unequal"
@@ -225,9 +287,11 @@ void ParagraphReader::readTerm(std::size_t i) {
   now.linked = attributive != nullptr || named != nullptr || isRightBehindOrgan(i) || isChained(i);
   weighTerm(i, *meaning, now.linked);
   now.kept = !now.negated;
+  const Subject subject{organ, attributive != nullptr ? ahead.piece : scope_.piece, attributive != nullptr, place, named != nullptr};
   if (now.kept && continuesCompound(i, *meaning->category)) extendCompound(f, meaning->entry->name);
-  else keepTerm(i, *meaning, organ, attributive != nullptr, place, named != nullptr, now);
+  else keepTerm(i, *meaning, subject, now);
   last_ = now;
+  if (isPlantNoun(i) && scope_.organEnd == i) scope_.organEnd = f.end;
   // 羽狀複葉,長20公分: the phrase has named the leaf itself.
   const auto isLeafWord = [](const std::string& word) { return isOneOf(word, {"葉", "叶"}); };
   const bool namesLeaf = isLeafWord(f.phrase->words.front()) || isLeafWord(f.phrase->words.back());
