@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 
 namespace axil::ui {
 namespace {
@@ -48,7 +49,7 @@ class Follow {
       following->contradictions = quantify::contradictionsWith(document::decided(*following->said, question.open.project.traits), *following->measurements.good);
     following->photos = derived_.photoTroubles(question.open);
     document::Derived& source = part ? part_ : derived_;
-    for (const GrammarKind kind : kKinds) addGrammar(*following, source, part ? *part : question.open, kind, question.environment);
+    addGrammars(*following, source, part ? *part : question.open, question.environment);
     following->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     return following;
   }
@@ -68,16 +69,24 @@ class Follow {
     return shown;
   }
 
-  void addGrammar(Following& following, document::Derived& derived, const document::OpenProject& open, GrammarKind kind, const simeco::Environment& environment) {
-    const auto at = static_cast<std::size_t>(kind);
-    const auto grammar = derived.grammar(open, kind);
-    const auto text = derived.grammarText(open, kind);
-    following.grammarTroubles[at] = grammar.trouble;
+  /// The texts one after the other, since what they follow from is kept; their growth side by side.
+  void addGrammars(Following& following, document::Derived& derived, const document::OpenProject& open, const simeco::Environment& environment) {
+    std::array<std::future<std::shared_ptr<const GrownGrammar>>, 3> growing;
     const std::uint64_t seed = open.project.seed;
-    Kept& kept = kept_[at];
-    const bool same = kept.grammar == grammar.good && kept.seed == seed && kept.environment == environment;
-    if (grammar.good && text.good && !same) kept = {grammar.good, seed, environment, grownFrom(*text.good, seed, environment)};
-    following.grammars[at] = kept.grown;
+    for (const GrammarKind kind : kKinds) {
+      const auto at = static_cast<std::size_t>(kind);
+      const auto grammar = derived.grammar(open, kind);
+      const auto text = derived.grammarText(open, kind);
+      following.grammarTroubles[at] = grammar.trouble;
+      Kept& kept = kept_[at];
+      if (!grammar.good || !text.good || (kept.grammar == grammar.good && kept.seed == seed && kept.environment == environment)) continue;
+      kept = {grammar.good, seed, environment, nullptr};
+      growing[at] = std::async(std::launch::async, [text = text.good, seed, environment] { return grownFrom(*text, seed, environment); });
+    }
+    for (std::size_t at = 0; at < growing.size(); ++at) {
+      if (growing[at].valid()) kept_[at].grown = growing[at].get();
+      following.grammars[at] = kept_[at].grown;
+    }
   }
 
   document::Derived derived_;
