@@ -29,7 +29,8 @@ constexpr CountedWord countedWords[] = {
     {"flowered", "flower", "", "per inflorescence"}, {"veined", "vein", "", ""}, {"nerved", "vein", "", ""},   {"locular", "ovary", "locule", ""},
     {"loculed", "ovary", "locule", ""}, {"celled", "ovary", "locule", ""}, {"loculate", "ovary", "locule", ""}, {"valved", "fruit", "valve", ""},
     {"foliolate", "leaflet", "", ""}, {"foliate", "leaflet", "", ""},      {"petaled", "petal", "", ""},    {"petalled", "petal", "", ""},
-    {"leaved", "leaf", "", ""},       {"leaved", "leaf", "", ""},          {"rayed", "ray floret", "", ""},
+    {"leaved", "leaf", "", ""},       {"rayed", "ray floret", "", ""},     {"paired", "", "", "pairs"},     {"jugate", "", "", "pairs"},
+    {"jug", "", "", "pairs"},
 };
 
 }  // namespace
@@ -59,6 +60,7 @@ std::size_t ParagraphReader::afterPerNode(std::size_t i) const {
 
 bool ParagraphReader::isGathered(std::size_t i) const {
   if (i >= tokens_.size()) return false;
+  if (isAny(i, {"cluster", "clusters", "group", "groups", "tufts"})) return true;
   const Concept* arrangement = found_[i].conceptAs("arrangement");
   return arrangement != nullptr && isOneOf(arrangement->name, {"whorled", "fascicled"});
 }
@@ -116,7 +118,22 @@ std::size_t ParagraphReader::readCount(std::size_t i) {
   if (const std::size_t end = readCountedWord(i, *range)) return end;
   if (const std::size_t end = readCountGoingOn(i, *range)) return end;
   if (const std::size_t end = readCountOfOrganBefore(i, *range)) return end;
-  return readCountOfOrganAfter(i, *range);
+  if (const std::size_t end = readCountOfOrganAfter(i, *range)) return end;
+  return afterUnread(i, *range);
+}
+
+// A range that says nothing here is left as a whole, or its numbers would be read one by one; with it what it is multiplied by:
+// "leaf (12-)23-34 × 45-56" has no unit.
+std::size_t ParagraphReader::afterUnread(std::size_t i, const NumberRange& range) const {
+  for (std::size_t k = i + 1; k < range.end; ++k)
+    if (found_[k] && found_[k].end > range.end) return 0;
+  std::size_t end = range.end;
+  while (is(end, "*")) {
+    const std::optional<NumberRange> next = rangeAt(tokens_, end + 1);
+    if (!next) break;
+    end = next->end;
+  }
+  return end > i + 1 ? end : 0;
 }
 
 ParagraphReader::Measure ParagraphReader::measureAt(std::size_t i) const {
@@ -318,12 +335,13 @@ std::size_t ParagraphReader::readCountOfOrganBefore(std::size_t i, const NumberR
   if (scope_.place != nullptr) return 0;
   const Measure measure = measureAt(range.end);
   const Concept* next = nounAt(measure.end);
+  if (!isHan(measure.end) && isGathered(measure.end)) return 0;  // "in 1 or more clusters of 3-6"
   if (next != nullptr && isHan(measure.end) && next != scope_.organ && isCountable(*next)) return 0;  // 具3花
   const bool ofPiece = &noun == scope_.piece;
   const Concept* per = is(measure.end, "per") ? nounAt(measure.end + 1) : nullptr;
   const std::string unit = !measure.unit.empty() ? measure.unit : per != nullptr ? "per " + per->name : unitOfEach(i);
   addCount(i, measure.end, scope_.organ->name, ofPiece ? noun.name : "", range, unit);
-  if (!ofPiece || !found_[scope_.organEnd - 1].as("organ")) evidence_ += 1;
+  evidence_ += ofPiece && found_[scope_.organEnd - 1].as("organ") ? 0.5 : 1;
   return per != nullptr ? found_[measure.end + 1].end : measure.end;
 }
 
@@ -340,7 +358,7 @@ std::size_t ParagraphReader::readCountOfOrganAfter(std::size_t i, const NumberRa
   const std::string& role = noun->columns.at("role");
   const bool inside = scope_.organ != nullptr && isOneOf(scope_.organ->name, {"inflorescence", "spikelet"});
   const bool flowersHan = isHan(at) && noun->name == "flower" && inside;
-  const bool divided = isHan(i) && noun->name == "leaflet" && i >= 2 && isAny(i - 2, {"掌", "羽"}) && isAny(i - 1, {"狀", "状"});
+  const bool divided = isHan(at) && noun->name == "leaflet" && i >= 2 && isAny(i - 2, {"掌", "羽"}) && isAny(i - 1, {"狀", "状"});
   if (divided && !found_[i - 2].as("type")) {  // 掌狀5小葉
     Trait type = traitAt(i - 2, found_[at].end, "leaf", "type");
     type.value = is(i - 2, "羽") ? "pinnate" : range.low == 3 && range.high == 3 ? "trifoliolate" : "palmate";
@@ -355,8 +373,24 @@ std::size_t ParagraphReader::readCountOfOrganAfter(std::size_t i, const NumberRa
   if (!isCountable(*noun) || (found_[at].as("organ")->everyday && !introduced && noun->name != "flower" && role == "organ" && noun->name != "leaf")) return 0;
   if (noun->name == "leaf" && measure.end == range.end && range.low == range.high && !scope_.organInSentence) return 0;  // "2 leaves" in any prose
   const std::string organ = role == "sub" ? ownerOf(*noun, at)->name : noun->name;
-  addCount(i, found_[at].end, organ, role == "sub" ? noun->name : "", range, measure.unit);
+  const bool pairsBehind = isAny(found_[at].end, {"pairs", "pair"});  // "10 or more pinna pairs"
+  addCount(i, pairsBehind ? found_[at].end + 1 : found_[at].end, organ, role == "sub" ? noun->name : "", range, pairsBehind ? "pairs" : measure.unit);
   return measure.end == at ? at : range.end;  // the adjectives and the organ are read next
+}
+
+// "sepals absent", 花瓣缺: none of them.
+std::size_t ParagraphReader::readAbsent(std::size_t i) {
+  if (!isAny(i, {"absent", "wanting", "lacking", "none", "obsolete", "缺", "缺如", "不存在"}) || scope_.organ == nullptr || !scope_.organInSentence) return 0;
+  const std::size_t end = is(i, "缺") && is(i + 1, "如") ? i + 2 : i + 1;
+  const bool stops = end >= tokens_.size() || tokens_[end].kind == TokenKind::Sign;
+  const bool counted = isOneOf(scope_.organ->name, {"petal", "sepal", "tepal", "stipule", "bract", "bracteole", "ray floret", "stamen", "tendril", "septum", "epicalyx", "pappus", "thorn", "awn"});
+  if (!stops || !counted || scope_.piece != nullptr || i != scope_.organEnd || isNegated(i)) return 0;
+  Trait trait = traitAt(i, end, scope_.organ->name, "count");
+  trait.low = trait.high = 0;
+  trait.which = scope_.which;
+  evidence_ += 0.5;
+  keep(std::move(trait), false);
+  return end;
 }
 
 }  // namespace axil::keywords

@@ -61,7 +61,10 @@ void ParagraphReader::weighTerm(std::size_t i, const Meaning& meaning, bool link
   const bool isNew = termsWeighed_.insert(meaning.entry).second;
   if (!isNew) return;
   strongSeen_ = strongSeen_ || !meaning.everyday;
-  if (!meaning.everyday) evidence_ += strongTerm;
+  if (!meaning.everyday) {
+    evidence_ += strongTerm;
+    ++strongTerms_;
+  }
   if (linked && found_[i].as("organ") == nullptr) evidence_ += linkedTerm;
   if (!meaning.everyday && meaning.category->property == "life form") organSeen_ = true;
 }
@@ -112,7 +115,9 @@ bool ParagraphReader::isAboutAPlant() const {
   if (foreignSeen_.empty() && share >= fragmentShare && (organSeen_ || bodySeen_ || evidence_ >= strongTerm) && (strongSeen_ || !isTold())) return true;
   if (evidence_ < (foreignSeen_.empty() ? enoughEvidence : enoughBesidesForeign)) return false;
   if (!strongSeen_ && isTold()) return false;
-  if (!organSeen_) return bodySeen_ && foreignSeen_.empty() && share >= bodyShare;
+  // "blade suborbiculate to ovate-cordate": no organ that only plants have, but words that only botany has.
+  const bool manyTerms = strongTerms_ >= 3 && foreignSeen_.empty() && share >= bodyShare;
+  if (!organSeen_ && !manyTerms) return bodySeen_ && foreignSeen_.empty() && share >= bodyShare;
   return share >= leastShare || (share >= proseShare && evidence_ >= muchEvidence);
 }
 

@@ -59,6 +59,7 @@ std::size_t ParagraphReader::step(std::size_t i) {
     if (const std::size_t end = readCount(i)) return end;
   }
   if (const std::size_t end = readNumerous(i)) return end;
+  if (const std::size_t end = readAbsent(i)) return end;
   const Found& f = found_[i];
   if (!f) return i + 1;
   if (f.conceptAs("foreign") != nullptr) weighForeign(f);

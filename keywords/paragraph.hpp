@@ -162,6 +162,8 @@ class ParagraphReader {
   std::size_t readCountOfOrganAfter(std::size_t i, const NumberRange& range);
   std::size_t readCountGoingOn(std::size_t i, const NumberRange& range);
   std::size_t readNumerous(std::size_t i);
+  std::size_t readAbsent(std::size_t i);
+  [[nodiscard]] std::size_t afterUnread(std::size_t i, const NumberRange& range) const;
   std::size_t readDivisions(std::size_t i);
   [[nodiscard]] std::size_t beforeEach(std::size_t i) const;
   [[nodiscard]] std::string unitOfEach(std::size_t i) const;
@@ -209,6 +211,7 @@ class ParagraphReader {
   bool unsure_ = false;
   bool organSeen_ = false;   // an organ that only plants have
   bool bodySeen_ = false;    // a stem, a branch
+  int strongTerms_ = 0;      // different words that only botany uses
   bool strongSeen_ = false;  // a word that only botany uses
   std::set<const Concept*> organsWeighed_;
   std::set<const Concept*> termsWeighed_;

@@ -122,6 +122,42 @@ std::size_t afterJoin(const Tokens& tokens, std::size_t at) {
   return isTo(tokens, at) ? at + 1 : 0;
 }
 
+// "3(?) cm", "8(-?) cm": the author was not sure; the number stands.
+std::size_t afterDoubt(const Tokens& tokens, std::size_t at) {
+  if (!isOpen(tokens, at)) return at;
+  const std::size_t mark = is(tokens, at + 1, "-") ? at + 2 : at + 1;
+  return is(tokens, mark, "?") && isClose(tokens, mark + 1) ? mark + 2 : at;
+}
+
+// "0 or 1-4", "5-10 or 20", "3(or 5-9)": what stands beside the usual range is its rare end.
+void takeOther(const Tokens& tokens, NumberRange& range, std::size_t& at) {
+  const bool bracket = isOpen(tokens, at) && isAny(tokens, at + 1, {"or", "或", "rarely", "-"});
+  const bool hyphens = is(tokens, at, "-") && isAny(tokens, at + 1, {"or", "或"});
+  std::size_t next = bracket ? at + 2 : hyphens ? at + 2 : isAny(tokens, at, {"or", "或"}) ? at + 1 : 0;
+  if (next == 0) return;
+  const auto low = numberAt(tokens, next);
+  if (!low || low->value <= range.high) return;
+  next = low->end;
+  double high = low->value;
+  if (is(tokens, next, "-"))
+    if (const auto upper = numberAt(tokens, next + 1); upper && upper->value > high) {
+      high = upper->value;
+      next = upper->end;
+    }
+  if (bracket && !isClose(tokens, next)) return;
+  const bool leftIsSingle = range.low == range.high && !range.minimum && !range.maximum;
+  if (!bracket && leftIsSingle && high > low->value) {
+    range.minimum = range.low;
+    range.low = low->value;
+    range.high = high;
+  } else if (bracket || !leftIsSingle) {
+    range.maximum = high;
+  } else {
+    return;
+  }
+  at = bracket ? next + 1 : next;
+}
+
 // ---- units and dimensions
 
 struct Named {
@@ -148,6 +184,8 @@ struct Measured {
   std::string unit;
   std::string dimension;
   std::size_t end = 0;
+  std::string also = {};       // "3 m tall and wide": the second dimension
+  std::string qualifier = {};  // "15-21 × ca. 8 mm"
 };
 
 bool isTimes(const Tokens& tokens, std::size_t i) { return isAny(tokens, i, {"*", "x", "by"}); }
@@ -225,6 +263,11 @@ std::optional<Measured> measuredAt(const Tokens& tokens, const std::vector<Found
     // "5-8 cm (-12)": the exception behind the unit.
     if (!m.range.maximum) m.range.maximum = takeMaximum(tokens, m.end, m.range.high);
     m.dimension = takeDimension(tokens, found, m.end);
+    const auto second = is(tokens, m.end, "and") && !m.dimension.empty() ? namedAt(found, m.end + 1, "dimension") : std::nullopt;
+    if (second && !numberAt(tokens, second->end)) {
+      m.also = second->name;
+      m.end = second->end;
+    }
     return m;
   }
   const bool dimensionBefore = dimensionEndingAt(found, at).has_value();
@@ -248,7 +291,12 @@ std::vector<Measured> chainAt(const Tokens& tokens, const std::vector<Found>& fo
   while (next) {
     chain.push_back(*next);
     if (chain.size() == dimensionsInOrder.size() || !isTimes(tokens, next->end)) break;
-    next = measuredAt(tokens, found, next->end + 1);
+    std::size_t begin = next->end + 1;
+    std::string qualifier;
+    for (; isAny(tokens, begin, {"ca", "c", "about", "±", ".", "to", "up", "約", "约", "approximately"}); ++begin)
+      if (!is(tokens, begin, ".")) qualifier = isAny(tokens, begin, {"to", "up"}) ? "up to" : "about";
+    next = measuredAt(tokens, found, begin);
+    if (next) next->qualifier = qualifier;
   }
   // A unit stands for those before it: "3-5 × 2 cm".
   for (std::size_t i = chain.size(); i-- > 1;)
@@ -279,7 +327,9 @@ std::optional<NumberRange> rangeAt(const Tokens& tokens, std::size_t first) {
   at = low->end;
   if (const std::size_t joined = afterJoin(tokens, at)) {
     const auto high = numberAt(tokens, joined);
-    if (high && high->value >= range.low && !isAny(tokens, joined, {"one"})) {
+    // "0 or 1-4" is not "0 to 1": the second number begins a range of its own.
+    const bool beginsRange = high && isAny(tokens, joined - 1, {"or", "或"}) && is(tokens, high->end, "-") && numberAt(tokens, high->end + 1) && !range.minimum;
+    if (high && high->value >= range.low && !beginsRange && !isAny(tokens, joined, {"one"})) {
       range.high = high->value;
       at = high->end;
     }
@@ -290,7 +340,10 @@ std::optional<NumberRange> rangeAt(const Tokens& tokens, std::size_t first) {
   } else if (is(tokens, at, "+")) {
     ++at;
   }
-  range.maximum = takeMaximum(tokens, at, range.high);
+  for (auto beyond = takeMaximum(tokens, at, range.high); beyond; beyond = takeMaximum(tokens, at, *range.maximum)) range.maximum = beyond;  // "1-64(-90)[-100]"
+  takeOther(tokens, range, at);
+  if (!range.maximum) range.maximum = takeMaximum(tokens, at, range.high);
+  at = afterDoubt(tokens, at);
   range.end = at;
   return range;
 }
@@ -353,10 +406,11 @@ std::vector<Size> sizesAt(const Tokens& tokens, const std::vector<Found>& found,
   const Lead lead = leadBefore(tokens, found, at);
   std::vector<Size> sizes;
   const auto add = [&](const Measured& m, const std::string& dimension) {
-    sizes.push_back({m.range, m.unit, dimension, lead.qualifier, lead.first, chain.back().end});
+    sizes.push_back({m.range, m.unit, dimension, m.qualifier.empty() ? lead.qualifier : m.qualifier, lead.first, chain.back().end});
   };
   if (chain.size() == 1) {
     const Measured& only = chain.front();
+    if (!only.also.empty()) add(only, only.also);
     if (!only.dimension.empty()) add(only, only.dimension);
     else if (lead.dimensions.empty()) add(only, {});
     else

@@ -86,7 +86,7 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   if (before > 0 && is(before, "具") && isAny(before - 1, {"不", "未"})) return true;
   if (isAny(before, {"與", "与"}) && isAny(found_[i].end, {"呈", "成", "夾", "夹", "間", "间", "等", "對", "对", "同"})) return true;
   if (isAny(before, {"than", "to", "與", "与", "和", "短", "exceeding", "於", "于", "near", "towards", "from", "among", "between", "above", "below", "on", "after", "before", "per", "until", "subtending", "opposite"}) && !isMeasuredItself) {
-    const bool afterTo = is(before, "to") && before > 0 && (nounAt(before - 1) != nullptr || found_[before - 1]);  // "shrubs to small trees"
+    const bool afterTo = is(before, "to") && before > 0 && nounAt(i)->name == "plant" && found_[before - 1];  // "shrubs to small trees"
     return scope_.organInSentence && !afterTo && !(isAny(before, {"和", "與", "与"}) && before > 0 && nounAt(before - 1) != nullptr);
   }
   if (!scope_.organInSentence || isMeasuredItself) return false;

@@ -42,6 +42,8 @@ ParagraphReader::Ahead ParagraphReader::nounAhead(std::size_t end) const {
   std::size_t at = end;
   for (int steps = 0; steps < 10 && at < tokens_.size(); ++steps) {
     if (isPlantNoun(at)) return {&organNamed("plant"), nullptr};
+    // "adnate to petiole", "sessile and leaves": what a connecting word leads to must be another adjective.
+    if (at > end && isAny(at - 1, {"to", "and", "or", "至", "或", "和"}) && nounAt(at) != nullptr) return {};
     if (const Concept* organ = nounAt(at); organ != nullptr && organ->columns.at("role") != "region") {
       if (startsALine(at) || afterComma) return {};
       const bool isPiece = organ->columns.at("role") == "sub";
@@ -185,7 +187,7 @@ void ParagraphReader::keepTerm(std::size_t i, const Meaning& meaning, const Subj
   const bool fitsBody = organ != nullptr && category.property == "shape" && (organ->name == "root" || (organ->name == "plant" && !isOutline(category, *meaning.entry)));
   const bool perennial = category.property == "duration" && isOneOf(meaning.entry->name, {"annual", "biennial", "perennial"});
   // 節片倒卵形: a flat shape said of a stem itself stays with it.
-  const bool ofStemItself = organ != nullptr && category.property == "shape" && !attributive && now.linked && isOneOf(organ->name, {"stem", "branch"});
+  const bool ofStemItself = organ != nullptr && category.property == "shape" && !attributive && now.linked && contains(category.notOrgans, organ->name);
   const bool takesDefault = organ == nullptr || category.ownOrgan || perennial || (!ofStemItself && (!accepts(category, organ) || (ofForm && isBody(*organ) && !fitsBody)));
   const bool placeHolds = place != nullptr && isOneOf(place->name, {"apex", "base"}) && category.property == "shape" && (placeNamed || !scope_.commaSincePlace);
   Trait trait = traitAt(f.first, f.end, takesDefault ? category.defaultOrgan : organ->name, placeHolds ? place->name : category.property);
@@ -292,6 +294,12 @@ void ParagraphReader::readTerm(std::size_t i) {
   else keepTerm(i, *meaning, subject, now);
   last_ = now;
   if (isPlantNoun(i) && scope_.organEnd == i) scope_.organEnd = f.end;
+  // "Woody climber reaching 15 m": the phrase has named the plant itself.
+  const bool namesPlant = meaning->category->property == "life form" && f.as("organ") == nullptr && attributive == nullptr && !now.negated && (scope_.organ == nullptr || !scope_.organInSentence || scope_.organ->name == "plant");
+  if (namesPlant) {
+    scope_ = {&organNamed("plant"), nullptr, nullptr, nullptr, {}, f.end, true, false, true, false, nullptr, nullptr};
+    plantInSentence_ = true;
+  }
   // 羽狀複葉,長20公分: the phrase has named the leaf itself.
   const auto isLeafWord = [](const std::string& word) { return isOneOf(word, {"葉", "叶"}); };
   const bool namesLeaf = isLeafWord(f.phrase->words.front()) || isLeafWord(f.phrase->words.back());

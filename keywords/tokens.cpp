@@ -33,7 +33,7 @@ Decoded decodeAt(std::string_view text, std::size_t i) {
 }
 
 bool isDash(char32_t c) {
-  return (c >= 0x2010 && c <= 0x2015) || c == 0x2212 || c == 0x223C || c == 0x301C || c == '~' || c == 0x02D7 || c == 0x30FC || c == 0xFF5E || c == 0xFE63;
+  return (c >= 0x2010 && c <= 0x2015) || c == 0x2212 || c == 0x223C || c == 0x301C || c == '~' || c == 0x02D7 || c == 0x30FC || c == 0xFF5E || c == 0xFE63 || c == '_';
 }
 
 bool isTimes(char32_t c) { return c == 0xD7 || c == 0x2715 || c == 0x2716 || c == 0x2A2F || c == 0x2A09; }
@@ -69,7 +69,7 @@ Folded foldedByUnicode(char32_t c) {
 
 Folded folded(char32_t c) {
   if (c >= 'A' && c <= 'Z') return {{c + 32}, 1};
-  if (c < 0x80 && c != '~') return {{c}, 1};
+  if (c < 0x80 && c != '~' && c != '_') return {{c}, 1};
   if (c == softHyphen) return {{c}, 1};
   const char32_t sign = foldedSign(c);
   if (sign != c) return {{sign}, 1};
