@@ -18,7 +18,10 @@ constexpr double weakOrgan = 0.5;
 constexpr double strongTerm = 1;
 constexpr double linkedTerm = 1;
 constexpr double foreignThing = 5;
-constexpr double leastShare = 0.6;      // of the words that are known, in a description
+constexpr double leastShare = 0.66;     // of the words that are known, in a description
+constexpr double leastEverydayShare = 0.85;  // in one that has no word that only botany uses
+constexpr double leastClauseShare = 0.7;     // between the first statement and the last, where the rest of the sentence is prose
+constexpr double enoughInClauses = 4;
 constexpr double proseShare = 0.4;      // in one that is told in whole sentences, and has much evidence
 constexpr double muchEvidence = 6;
 constexpr double bodyShare = 0.75;      // where only stems or branches are named, as rivers and pipes have them too
@@ -69,7 +72,30 @@ void ParagraphReader::weighTerm(std::size_t i, const Meaning& meaning, bool link
   if (!meaning.everyday && meaning.category->property == "life form") organSeen_ = true;
 }
 
+// "Found along rivers and lakes", 生於海岸: where a plant grows says nothing against it.
+bool ParagraphReader::isHabitat(std::size_t i) const {
+  for (std::size_t back = 1; back <= 14 && back <= i; ++back) {
+    if (isSentenceEnd(i - back)) return false;
+    if (isAny(i - back, {"grow", "grows", "growing", "found", "occurs", "occurring", "occur", "native", "common", "endemic", "distributed", "widespread", "habitat", "habitats", "naturalized", "naturalised", "frequent",
+                         "near", "along", "生", "產", "产", "佈", "布", "見", "见", "於", "于", "长", "長"}))
+      return true;
+  }
+  return false;
+}
+
+// "Used to treat stomach pain", 民間用來治療胃病: nor does what it is good for.
+bool ParagraphReader::isUse(std::size_t i) const {
+  const auto saysUse = [&](std::size_t k) { return isAny(k, {"used", "use", "uses", "medicinal", "medicinally", "medicine", "remedy", "treat", "treats", "treating", "cure", "cures", "tea", "藥", "药", "治", "療", "疗", "煎", "服"}); };
+  for (std::size_t back = 0; back <= 14 && back <= i && !isSentenceEnd(i - back); ++back)
+    if (saysUse(i - back)) return true;
+  for (std::size_t ahead = i + 1; ahead < tokens_.size() && ahead < i + 8 && !isSentenceEnd(ahead); ++ahead)
+    if (saysUse(ahead)) return true;
+  return false;
+}
+
 void ParagraphReader::weighForeign(const Found& f) {
+  const std::string& field = f.conceptAs("foreign")->name;
+  if ((field == "nature" && isHabitat(f.first)) || (field == "medicine" && isUse(f.first))) return;
   std::string words;
   for (const std::string& word : f.phrase->words) words += word + " ";
   if (foreignSeen_.insert(words).second) evidence_ -= foreignThing;
@@ -78,47 +104,87 @@ void ParagraphReader::weighForeign(const Found& f) {
 bool ParagraphReader::isKnown(std::size_t i) const {
   const Token& token = tokens_[i];
   if (token.kind == TokenKind::Number || token.kind == TokenKind::Sign) return true;
-  if (isFiller(token.text) || countedBy(i).end != 0 || isAny(i, {"merous", "above", "below", "long", "palmately", "pinnately", "digitately", "node", "nodes", "small", "large", "medium", "tall", "slender", "夾", "夹", "角"}) || !qualifierOf(token.text).empty() || negates(token.text) || numberAt(tokens_, i)) return true;
+  if (isFiller(token.text) || countedBy(i).end != 0 || isAny(i, {"merous", "above", "below", "long", "diverging", "divergence", "diverge", "palmately", "pinnately", "digitately", "node", "nodes", "small", "large", "medium", "tall", "slender", "夾", "夹", "角"}) || !qualifierOf(token.text).empty() || negates(token.text) || numberAt(tokens_, i)) return true;
   return false;
 }
 
-// How many of its words the reader knows: vocabulary, numbers, little words.
-double ParagraphReader::knownShare() const {
+// The sentences that say something; where a plant grows or what it is good for may be told beside them at any length.
+std::vector<ParagraphReader::Stretch> ParagraphReader::tellingSentences() const {
+  std::vector<std::uint32_t> places;
+  for (const Trait& trait : result_.traits) places.push_back(trait.span.begin);
+  for (const Denial& denial : result_.denials) places.push_back(denial.trait.span.begin);
+  std::sort(places.begin(), places.end());
+  std::vector<Stretch> sentences;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < tokens_.size(); ++i) {
+    if (i + 1 < tokens_.size() && !isSentenceEnd(i)) continue;
+    const auto place = std::lower_bound(places.begin(), places.end(), tokens_[first].begin);
+    if (place != places.end() && *place < tokens_[i].end) sentences.push_back({first, i + 1});
+    first = i + 1;
+  }
+  return sentences;
+}
+
+// From the clause of the first statement to that of the last.
+ParagraphReader::Stretch ParagraphReader::tellingClauses() const {
+  std::uint32_t begin = result_.traits.front().span.begin;
+  std::uint32_t end = 0;
+  for (const Trait& trait : result_.traits) {
+    begin = std::min(begin, trait.span.begin);
+    end = std::max(end, trait.span.end);
+  }
+  Stretch stretch{0, tokens_.size()};
+  for (std::size_t i = 0; i < tokens_.size() && tokens_[i].begin < begin; ++i)
+    if (tokens_[i].kind == TokenKind::Sign) stretch.first = i + 1;
+  for (std::size_t i = tokens_.size(); i > 0 && tokens_[i - 1].begin >= end; --i)
+    if (tokens_[i - 1].kind == TokenKind::Sign) stretch.end = i;
+  return stretch;
+}
+
+double ParagraphReader::knownShare() const { return knownShare({{0, tokens_.size()}}); }
+
+// How many of the words there the reader knows: vocabulary, numbers, little words.
+double ParagraphReader::knownShare(const std::vector<Stretch>& stretches) const {
   double known = 0;
   double all = 0;
-  for (std::size_t i = 0; i < tokens_.size();) {
-    if (tokens_[i].kind == TokenKind::Sign || tokens_[i].kind == TokenKind::Number) {
-      ++i;
-      continue;
+  for (const Stretch& stretch : stretches) {
+    for (std::size_t i = stretch.first; i < stretch.end;) {
+      if (tokens_[i].kind == TokenKind::Sign || tokens_[i].kind == TokenKind::Number) {
+        ++i;
+        continue;
+      }
+      const Concept* stop = found_[i].conceptAs("stop");
+      const bool phrase = found_[i] && found_[i].conceptAs("foreign") == nullptr && (stop == nullptr || stop->name == "place");
+      const std::size_t end = found_[i] ? found_[i].end : i + 1;
+      all += static_cast<double>(end - i);
+      if (phrase || (!found_[i] && isKnown(i))) known += static_cast<double>(end - i);
+      i = end;
     }
-    const Concept* stop = found_[i].conceptAs("stop");
-    const bool phrase = found_[i] && found_[i].conceptAs("foreign") == nullptr && (stop == nullptr || stop->name == "place");
-    const std::size_t end = found_[i] ? found_[i].end : i + 1;
-    all += static_cast<double>(end - i);
-    if (phrase || (!found_[i] && isKnown(i))) known += static_cast<double>(end - i);
-    i = end;
   }
   return all == 0 ? 0 : known / all;
 }
 
 // Verbs and articles of sentences that tell something; descriptions do without.
-bool ParagraphReader::isTold() const {
-  for (std::size_t i = 0; i < tokens_.size(); ++i)
-    if (isAny(i, {"has", "have", "was", "were", "is", "each", "be"})) return true;
+bool ParagraphReader::isTold(const std::vector<Stretch>& stretches) const {
+  for (const Stretch& stretch : stretches)
+    for (std::size_t i = stretch.first; i < stretch.end; ++i)
+      if (isAny(i, {"has", "have", "was", "were", "is", "each", "be"})) return true;
   return false;
 }
 
 bool ParagraphReader::isAboutAPlant() const {
   if (result_.traits.empty() && result_.denials.empty()) return false;
-  const double share = knownShare();
+  const std::vector<Stretch> telling = tellingSentences();
+  const double share = knownShare(telling);
   // "Leaves opposite", 對生: everyday words too, where there are no others.
-  if (foreignSeen_.empty() && share >= fragmentShare && (organSeen_ || bodySeen_ || evidence_ >= strongTerm) && (strongSeen_ || !isTold())) return true;
+  if (foreignSeen_.empty() && share >= fragmentShare && (organSeen_ || bodySeen_ || evidence_ >= strongTerm) && (strongSeen_ || !isTold(telling))) return true;
   if (evidence_ < (foreignSeen_.empty() ? enoughEvidence : enoughBesidesForeign)) return false;
-  if (!strongSeen_ && isTold()) return false;
+  if (!strongSeen_ && (isTold(telling) || share < leastEverydayShare)) return false;
   // "blade suborbiculate to ovate-cordate": no organ that only plants have, but words that only botany has.
   const bool manyTerms = strongTerms_ >= 3 && foreignSeen_.empty() && share >= bodyShare;
   if (!organSeen_ && !manyTerms) return bodySeen_ && foreignSeen_.empty() && share >= bodyShare;
-  return share >= leastShare || (share >= proseShare && evidence_ >= muchEvidence);
+  if (share >= leastShare || (share >= proseShare && evidence_ >= muchEvidence)) return true;
+  return foreignSeen_.empty() && strongTerms_ >= 1 && evidence_ >= enoughInClauses && !result_.traits.empty() && knownShare({tellingClauses()}) >= leastClauseShare;
 }
 
 // ---- words that were seen but not understood

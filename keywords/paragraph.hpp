@@ -181,10 +181,19 @@ class ParagraphReader {
   void weighNoun(std::size_t i, const Concept& organ);
   void weighTerm(std::size_t i, const Meaning& meaning, bool linked);
   void weighForeign(const Found& f);
-  [[nodiscard]] bool isTold() const;
+  [[nodiscard]] bool isHabitat(std::size_t i) const;
+  struct Stretch {
+    std::size_t first = 0;
+    std::size_t end = 0;
+  };
+  [[nodiscard]] std::vector<Stretch> tellingSentences() const;
+  [[nodiscard]] Stretch tellingClauses() const;
+  [[nodiscard]] bool isTold(const std::vector<Stretch>& stretches) const;
+  [[nodiscard]] bool isUse(std::size_t i) const;
   [[nodiscard]] bool isAboutAPlant() const;
   [[nodiscard]] bool isKnown(std::size_t i) const;
   [[nodiscard]] double knownShare() const;
+  [[nodiscard]] double knownShare(const std::vector<Stretch>& stretches) const;
   void findUnknown();
   void noteUnknownSegment(std::size_t first, std::size_t end);
 
