@@ -57,24 +57,27 @@ std::vector<skeleton3d::ClickedStem> stemsOf(const Project& project) {
 }
 
 // The ends of a known length, as exactly as its photo shows them; as clicked where it cannot be read.
-std::optional<skeleton3d::KnownLength> lengthIn(const OpenProject& open, const ProjectView& view) {
-  if (!view.scale || view.photo.empty() || view.view.camera.model != skeleton3d::CameraModel::Unknown) return view.scale;
+void readKnownLength(const OpenProject& open, const ProjectView& view, skeleton3d::UnknownCameraHints& hints) {
+  if (!view.scale || view.photo.empty() || view.view.camera.model != skeleton3d::CameraModel::Unknown) return;
   const auto photo = skeleton3d::readPhoto(photoPath(open, view));
-  return photo ? skeleton3d::snapKnownLength(*photo, *view.scale).scale : *view.scale;
+  if (!photo) return;
+  const auto& given = view.view.camera.focal_px;
+  const auto snapped = skeleton3d::snapKnownLength(*photo, *view.scale, given ? std::optional(given->x) : hints.exif_focal_px);
+  hints.scale = snapped.scale;
+  hints.scaleSigma_px = snapped.sigma_px;
 }
 
 std::map<std::string, skeleton3d::UnknownCameraHints> hintsOf(const OpenProject& open, const std::map<std::string, double>& focals) {
   std::map<std::string, skeleton3d::UnknownCameraHints> hints;
   for (const ProjectView& view : open.project.views) {
     const auto focal = focals.find(view.view.name);
-    hints[view.view.name] = {view.origin_px, lengthIn(open, view), focal == focals.end() ? std::nullopt : std::optional(focal->second)};
+    auto& own = hints[view.view.name] = {view.origin_px, view.scale, focal == focals.end() ? std::nullopt : std::optional(focal->second)};
+    readKnownLength(open, view, own);
   }
   return hints;
 }
 
-/// Snaps the clicks of all views that have a photo; cameras are known by now.
-Result<void> snapClicks(const OpenProject& open, const ChainOptions& options, Measured& result) {
-  options.watch.report("looking for the stems in the photos", 0.4);
+Result<skeleton3d::Photos> photosOf(const OpenProject& open) {
   skeleton3d::Photos photos;
   for (const ProjectView& view : open.project.views) {
     if (view.photo.empty()) continue;
@@ -83,23 +86,51 @@ Result<void> snapClicks(const OpenProject& open, const ChainOptions& options, Me
     photos[view.view.name] = *std::move(photo);
   }
   if (photos.empty()) return fail(ErrorCode::BadInput, "no view has a photo, so there is nothing that clicks could snap to; name the photos or measure without snapping");
-  auto snapping = skeleton3d::snapNodes(result.views, photos, result.nodes, stemsOf(open.project));
-  if (!snapping) return snapping.failure();
+  return photos;
+}
+
+bool anyUnknown(const std::vector<skeleton3d::View>& views) {
+  return std::any_of(views.begin(), views.end(), [](const skeleton3d::View& view) { return view.camera.model == skeleton3d::CameraModel::Unknown; });
+}
+
+void takeCameras(skeleton3d::EstimatedCameras cameras, Measured& result) {
+  result.nodes = skeleton3d::withoutSuspects(result.nodes, cameras.suspects);
+  result.views = std::move(cameras.views);
+  result.cameras = std::move(cameras.reports);
+  result.suspects = std::move(cameras.suspects);
+  result.uncertainty = std::move(cameras.uncertainty);
+  result.notes = std::move(cameras.notes);
+}
+
+void takeSnapping(skeleton3d::Snapping snapping, Measured& result) {
   std::size_t clicks = 0, snapped = 0;
   for (const auto& node : result.nodes) clicks += node.clicks.size();
-  for (const auto& node : snapping->nodes) snapped += node.snappedIn.size();
+  for (const auto& node : snapping.nodes) snapped += node.snappedIn.size();
   result.notes.push_back(std::to_string(snapped) + " of " + std::to_string(clicks) + " clicks were snapped to a stem's centre line; the others were kept as they are");
-  for (const auto& node : snapping->nodes)
+  for (const auto& node : snapping.nodes)
     for (auto& clicked : result.nodes)
       if (clicked.id == node.id && !clicked.radius) clicked.radius = node.radius;
-  result.snapped = std::move(snapping->nodes);
+  result.snapped = std::move(snapping.nodes);
+}
+
+/// Clicks alone. Where cameras are known, what is wrong with them or the clicks is for solving to say, node by node.
+Result<void> measureClicks(const OpenProject& open, const std::map<std::string, double>& focals, Measured& result) {
+  auto cameras = skeleton3d::estimateCameras(result.views, hintsOf(open, focals), result.nodes, {.stems = stemsOf(open.project)});
+  if (cameras)
+    takeCameras(*std::move(cameras), result);
+  else if (anyUnknown(result.views))
+    return cameras.failure();
   return {};
 }
 
-Result<Measured> withSnapping(const OpenProject& open, const ChainOptions& options, Measured result) {
-  if (options.snap == Snap::Off) return result;
-  if (auto done = snapClicks(open, options, result); !done) return done.failure();
-  return result;
+Result<void> measureSnapped(const OpenProject& open, const std::map<std::string, double>& focals, Measured& result) {
+  const auto photos = photosOf(open);
+  if (!photos) return photos.failure();
+  auto found = skeleton3d::measurePhotographed(result.views, hintsOf(open, focals), *photos, result.nodes, {.stems = stemsOf(open.project)});
+  if (!found) return found.failure();
+  takeCameras(std::move(found->cameras), result);
+  takeSnapping(std::move(found->snapping), result);
+  return {};
 }
 
 /// Leaves wait with the stem or the nodes that they are on.
@@ -148,22 +179,11 @@ Result<Measured> measured(const OpenProject& open, const ChainOptions& options) 
   auto views = readViews(open, options, focals);
   if (!views) return views.failure();
   Measured result{std::move(*views), nodesOf(open.project), {}, {}};
-  const bool anyUnknown = std::any_of(result.views.begin(), result.views.end(),
-                                      [](const skeleton3d::View& view) { return view.camera.model == skeleton3d::CameraModel::Unknown; });
-  if (!anyUnknown) {
-    if (auto uncertainty = skeleton3d::uncertaintyOf(result.views, result.nodes)) result.uncertainty = *std::move(uncertainty);
-    return withSnapping(open, options, std::move(result));
-  }
-  options.watch.report("estimating the cameras", 0.2);
-  auto cameras = skeleton3d::estimateCameras(result.views, hintsOf(open, focals), result.nodes, {.stems = stemsOf(open.project)});
-  if (!cameras) return cameras.failure();
-  result.nodes = skeleton3d::withoutSuspects(result.nodes, cameras->suspects);
-  result.views = std::move(cameras->views);
-  result.cameras = std::move(cameras->reports);
-  result.suspects = std::move(cameras->suspects);
-  result.uncertainty = std::move(cameras->uncertainty);
-  result.notes = std::move(cameras->notes);
-  return withSnapping(open, options, std::move(result));
+  const bool snap = options.snap == Snap::On;
+  options.watch.report(snap ? "looking for the stems in the photos" : anyUnknown(result.views) ? "estimating the cameras" : "judging the clicks", 0.2);
+  const auto done = snap ? measureSnapped(open, focals, result) : measureClicks(open, focals, result);
+  if (!done) return done.failure();
+  return result;
 }
 
 Result<skeleton3d::Skeleton> skeletonOf(const Project& project, const Measured& clicks, const ChainOptions& options) {

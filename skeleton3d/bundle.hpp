@@ -40,9 +40,18 @@ struct BundleCamera {
   std::array<double, kParameters> values{};   ///< kFocalInverse is first guess / focal
 };
 
+/// A stem's centre line as a photo shows it beside a click.
+struct BundleLine {
+  glm::dvec2 px{0, 0};
+  glm::dvec2 across{1, 0};  ///< unit
+  double sigma_px = 1;
+};
+
 struct BundleClick {
   std::size_t view = 0;
   glm::dvec2 px{0, 0};
+  std::optional<double> sigma_px = std::nullopt;     ///< nothing: that of all clicks
+  std::optional<BundleLine> line = std::nullopt;
 };
 
 struct BundlePoint {
@@ -88,6 +97,9 @@ struct AdjustOptions {
 /// length and its rays meet it is one object, else each is seen alone. Fails where no length has two different ends.
 [[nodiscard]] Result<Bundle> withKnownLengths(Bundle bundle, double click_px);
 
+/// The clicks of nodes with the centre lines beside them.
+[[nodiscard]] Bundle withCentreLines(Bundle bundle, const RidgeReadings& readings);
+
 /// True size over the size the bundle has, all known lengths weighted by how well they are seen; 1 without any.
 [[nodiscard]] double trueScale(const Bundle& bundle, const Uncertainty& shape);
 /// Those weights, one a rod, their sum 1.
@@ -119,6 +131,7 @@ struct Scatter {
 
 /// Clicks that do not fit, judged node by node in `views`, the bundle's cameras or better ones. See SuspectClick.
 [[nodiscard]] std::vector<SuspectClick> suspectsOf(const Bundle& bundle, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems);
+[[nodiscard]] std::vector<SuspectClick> suspectsAmong(const std::vector<ClickedNode>& nodes, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems);
 [[nodiscard]] std::vector<SuspectClick> suspectsIn(const ClickedNode& node, const std::vector<View>& views, double click_px);
 /// The bundle without the suspects that withoutSuspects drops.
 [[nodiscard]] Bundle withoutSuspectsIn(Bundle bundle, const std::vector<SuspectClick>& suspects);

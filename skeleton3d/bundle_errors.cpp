@@ -31,11 +31,30 @@ Turn turnOf(const glm::dvec3& w) {
   return {glm::dmat3(1.0) + sine * k + cosine * kk, glm::dmat3(1.0) + cosine * k + rest * kk};
 }
 
+/// Where a click says that its point is seen, and how much it says: residuals are `weight` times how far off the point is.
+struct Target {
+  glm::dvec2 px{0, 0};
+  glm::dmat2 weight{1.0};  ///< 1/px
+};
+
+glm::dmat2 evenWeight(double sigma_px) { return glm::dmat2(1 / sigma_px); }
+
+/// A click alone says the same in all directions; a centre line beside it says most of what is across the stem.
+Target targetOf(const BundleClick& click, double click_px) {
+  const double sigma_px = click.sigma_px.value_or(click_px);
+  if (!click.line) return {click.px, evenWeight(sigma_px)};
+  const glm::dvec2 across = click.line->across, along{-across.y, across.x};
+  const double byClick = 1 / (sigma_px * sigma_px), byLine = 1 / (click.line->sigma_px * click.line->sigma_px), both = byClick + byLine;
+  const double shift = byLine / both * glm::dot(click.line->px - click.px, across);
+  return {click.px + shift * across, glm::transpose(glm::dmat2{std::sqrt(both) * across, along / sigma_px})};
+}
+
 /// Reprojection error of a click in an unknown camera; both are adjusted. The derivatives are written out, since this is
 /// where an adjustment spends its time.
 class ClickError : public ceres::SizedCostFunction<2, kParameters, 3> {
  public:
-  ClickError(const BundleCamera& camera, glm::dvec2 click, double click_px) : camera_(camera), click_(click), click_px_(click_px) {}
+  ClickError(const BundleCamera& camera, const Target& target)
+      : camera_(camera), at_((target.px - camera.view.camera.centre_px) / glm::dvec2{1, camera.aspect}), weight_(target.weight * glm::dmat2{{1, 0}, {0, camera.aspect}}) {}
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     const double* values = parameters[0];
@@ -47,8 +66,7 @@ class ClickError : public ceres::SizedCostFunction<2, kParameters, 3> {
     if (near < 1e-3) return false;  // at or behind the camera: a step to refuse
     const glm::dvec2 straight = (scale * glm::dvec2{turned.x, turned.y} + glm::dvec2{values[kOriginX], values[kOriginY]}) / near;
     const Bent bent = bend(straight, inverse, values[kBend]);
-    const glm::dvec2 weight = glm::dvec2{1, camera_.aspect} / click_px_;
-    const glm::dvec2 residual = weight * (bent.at - (click_ - camera_.view.camera.centre_px) / glm::dvec2{1, camera_.aspect});
+    const glm::dvec2 residual = weight_ * (bent.at - at_);
     residuals[0] = residual.x;
     residuals[1] = residual.y;
     if (jacobians == nullptr) return true;
@@ -56,13 +74,13 @@ class ClickError : public ceres::SizedCostFunction<2, kParameters, 3> {
     // Columns: how `straight` moves with the turned node; then everything goes through the lens and the weight.
     const double k = scale * inverse;
     const glm::dmat3x2 byTurned = glm::dmat3x2{{scale, 0}, {0, scale}, -k * straight} / near;
-    const auto through = [&](const glm::dvec2& column) { return weight * (bent.derivative * column); };
+    const auto through = [&](const glm::dvec2& column) { return weight_ * (bent.derivative * column); };
     if (jacobians[0] != nullptr) {
       const glm::dmat3x2 byTurn = byTurned * (-crossMatrix(turned) * turn.left);
       const glm::dvec2 byScale = (scale * glm::dvec2{turned.x, turned.y} - k * turned.z * straight) / near;
       const glm::dvec2 byInverse = -(scale * turned.z / camera_.focal_px) * straight / near;
       const glm::dvec2 columns[kParameters] = {through(byTurn[0]), through(byTurn[1]), through(byTurn[2]), through({1 / near, 0}), through({0, 1 / near}), through(byScale),
-                                               through(byInverse) + weight * bent.byInverse / camera_.focal_px, weight * bent.byBend};
+                                               through(byInverse) + weight_ * bent.byInverse / camera_.focal_px, weight_ * bent.byBend};
       for (std::size_t c = 0; c < kParameters; ++c) setColumn(jacobians[0], kParameters, c, columns[c]);
     }
     if (jacobians[1] != nullptr) {
@@ -98,15 +116,14 @@ class ClickError : public ceres::SizedCostFunction<2, kParameters, 3> {
   }
 
   const BundleCamera& camera_;
-  glm::dvec2 click_;
-  double click_px_;
+  glm::dvec2 at_;       ///< from the picture's centre, pixels made square
+  glm::dmat2 weight_;
 };
 
 /// Reprojection error of a click in a known camera; only the node moves.
 struct KnownCameraError {
   const Camera* camera;
-  glm::dvec2 click;
-  double click_px;
+  Target target;
 
   template <class T>
   bool operator()(const T* point, T* residual) const {
@@ -120,15 +137,16 @@ struct KnownCameraError {
       p = detail::distort(camera->distortion, T(v[0] / v[2]), T(v[1] / v[2]));
       scale = *camera->focal_px;
     }
-    residual[0] = (scale.x * p[0] + camera->centre_px.x - click.x) / click_px;
-    residual[1] = (scale.y * p[1] + camera->centre_px.y - click.y) / click_px;
+    const T x = scale.x * p[0] + camera->centre_px.x - target.px.x, y = scale.y * p[1] + camera->centre_px.y - target.px.y;
+    for (int row = 0; row < 2; ++row) residual[row] = target.weight[0][row] * x + target.weight[1][row] * y;
     return true;
   }
 };
+
 /// The plant's origin seen in an unknown camera: a click on a point that stays at (0, 0, 0).
 class OriginError : public ceres::SizedCostFunction<2, kParameters> {
  public:
-  OriginError(const BundleCamera& camera, glm::dvec2 click, double click_px) : error_(camera, click, click_px) {}
+  OriginError(const BundleCamera& camera, glm::dvec2 click, double click_px) : error_(camera, {click, evenWeight(click_px)}) {}
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     const double origin[3] = {0, 0, 0};
@@ -197,8 +215,8 @@ struct AtOriginsDepth {
 ErrorBlock clickBlock(const Bundle& bundle, const BundleClick& click, std::size_t point, double click_px) {
   const BundleCamera& camera = bundle.cameras[click.view];
   if (camera.known)
-    return {std::make_unique<ceres::AutoDiffCostFunction<KnownCameraError, 2, 3>>(new KnownCameraError{&camera.view.camera, click.px, click_px}), {}, point, true};
-  return {std::make_unique<ClickError>(camera, click.px, click_px), {click.view}, point, true};
+    return {std::make_unique<ceres::AutoDiffCostFunction<KnownCameraError, 2, 3>>(new KnownCameraError{&camera.view.camera, targetOf(click, click_px)}), {}, point, true};
+  return {std::make_unique<ClickError>(camera, targetOf(click, click_px)), {click.view}, point, true};
 }
 
 ErrorBlock depthBlock(const Bundle& bundle, std::size_t point) {

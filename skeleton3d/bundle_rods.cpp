@@ -18,24 +18,29 @@ constexpr double kShortest_px = 1;
 struct SeenRod {
   double length = 0;
   std::array<ClickedNode, 2> ends = {ClickedNode{NodeId(0), {}, std::nullopt}, ClickedNode{NodeId(1), {}, std::nullopt}};
+  std::array<std::map<std::string, double>, 2> sigma_px = {};  ///< by view, where it is not that of all clicks
 };
 
 struct SeenLength {
   std::string view;
   KnownLength scale;
+  std::array<std::optional<double>, 2> sigma_px;
 };
 
-KnownLength turnedRound(KnownLength scale) {
-  std::swap(scale.from, scale.to);
-  return scale;
+SeenLength turnedRound(SeenLength seen) {
+  std::swap(seen.scale.from, seen.scale.to);
+  std::swap(seen.sigma_px[0], seen.sigma_px[1]);
+  return seen;
 }
 
 SeenRod rodOf(const std::vector<SeenLength>& seen, unsigned turned) {
   SeenRod rod{seen.front().scale.length};
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const KnownLength scale = (turned >> i & 1u) != 0 ? turnedRound(seen[i].scale) : seen[i].scale;
-    rod.ends[0].clicks[seen[i].view] = scale.from;
-    rod.ends[1].clicks[seen[i].view] = scale.to;
+    const SeenLength one = (turned >> i & 1u) != 0 ? turnedRound(seen[i]) : seen[i];
+    rod.ends[0].clicks[one.view] = one.scale.from;
+    rod.ends[1].clicks[one.view] = one.scale.to;
+    for (std::size_t e = 0; e < 2; ++e)
+      if (one.sigma_px[e]) rod.sigma_px[e][one.view] = *one.sigma_px[e];
   }
   return rod;
 }
@@ -109,7 +114,10 @@ void addRod(const SeenRod& rod, const std::vector<View>& views, Bundle& bundle) 
   for (std::size_t e = 0; e < 2; ++e) {
     BundlePoint point{NodeId(-1 - static_cast<int>(bundle.points.size())), {}, {at[e]->x, at[e]->y, at[e]->z}, rod.ends[e].clicks.size() < 2};
     for (std::size_t v = 0; v < views.size(); ++v)
-      if (const auto click = rod.ends[e].clicks.find(views[v].name); click != rod.ends[e].clicks.end()) point.clicks.push_back({v, click->second.px});
+      if (const auto click = rod.ends[e].clicks.find(views[v].name); click != rod.ends[e].clicks.end()) {
+        const auto sigma = rod.sigma_px[e].find(views[v].name);
+        point.clicks.push_back({v, click->second.px, sigma == rod.sigma_px[e].end() ? std::nullopt : std::optional(sigma->second)});
+      }
     bundle.points.push_back(std::move(point));
   }
   bundle.rods.push_back(added);
@@ -121,7 +129,7 @@ std::map<double, std::vector<SeenLength>> lengthsOf(const Bundle& bundle) {
   for (const BundleCamera& camera : bundle.cameras) {
     const auto& scale = camera.hints.scale;
     if (camera.known || !scale || glm::length(scale->to.px - scale->from.px) < kShortest_px) continue;
-    lengths[scale->length].push_back({camera.view.name, *scale});
+    lengths[scale->length].push_back({camera.view.name, *scale, camera.hints.scaleSigma_px});
   }
   return lengths;
 }

@@ -56,6 +56,7 @@ struct Accused {
   std::string view;
   double off_px = 0;
   double likelihood = 0;  ///< its logarithm
+  bool leaps = false;     ///< without it the node is far from where its stems go on
 };
 
 std::vector<Accused> accusedOf(const ClickedNode& node, const std::vector<View>& views, double click_px, const StemCourse& course) {
@@ -65,7 +66,7 @@ std::vector<Accused> accusedOf(const ClickedNode& node, const std::vector<View>&
     ClickedNode others = node;
     others.clicks.erase(view);
     const auto fit = fitted(others, views, click_px);
-    if (fit && fits(others, *fit)) accused.push_back({view, offFrom(*fit, click, view, views), likelihoodAt(course, node.id, fit->at.at) - fit->squares / 2});
+    if (fit && fits(others, *fit)) accused.push_back({view, offFrom(*fit, click, view, views), likelihoodAt(course, node.id, fit->at.at) - fit->squares / 2, leapsAt(course, node.id, fit->at.at)});
   }
   return accused;
 }
@@ -96,7 +97,8 @@ std::vector<SuspectClick> allOf(const ClickedNode& node, const Fit& fit, const s
 std::vector<SuspectClick> suspectsWhere(const ClickedNode& node, const std::optional<Fit>& fit, const std::vector<View>& views, double click_px, const StemCourse& course) {
   if (!fit || fits(node, *fit) || (node.clicks.size() == 2 && fit->squares <= kTwoAlone * kTwoAlone * chiSquaredLimit(1))) return {};
   const auto accused = accusedOf(node, views, click_px, course);
-  return accused.empty() ? allOf(node, *fit, views) : weighed(node.id, accused);
+  const bool twoWrong = std::all_of(accused.begin(), accused.end(), [](const Accused& one) { return one.leaps; });  // that agree by chance
+  return twoWrong ? allOf(node, *fit, views) : weighed(node.id, accused);
 }
 
 std::map<NodeId, glm::dvec3> placesOf(const std::vector<ClickedNode>& nodes, const std::vector<std::optional<Fit>>& fits) {
@@ -114,9 +116,13 @@ std::vector<SuspectClick> suspectsIn(const ClickedNode& node, const std::vector<
 }
 
 std::vector<SuspectClick> suspectsOf(const Bundle& bundle, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems) {
-  const double scatter_px = std::max(click_px, kLeastClick_px);
   std::vector<ClickedNode> nodes;
   for (std::size_t p = 0; p < bundle.nodes; ++p) nodes.push_back(clickedAgain(bundle.points[p], views));
+  return suspectsAmong(nodes, views, click_px, stems);
+}
+
+std::vector<SuspectClick> suspectsAmong(const std::vector<ClickedNode>& nodes, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems) {
+  const double scatter_px = std::max(click_px, kLeastClick_px);
   const auto fits = fittedAll(nodes, views, scatter_px);
   const StemCourse course = stemCourseOf(stems, placesOf(nodes, fits));
   std::vector<SuspectClick> suspects;
@@ -133,8 +139,11 @@ Bundle withoutSuspectsIn(Bundle bundle, const std::vector<SuspectClick>& suspect
   std::vector<ClickedNode> nodes;
   for (const BundlePoint& point : bundle.points) nodes.push_back(clickedAgain(point, views));
   const std::vector<ClickedNode> kept = withoutSuspects(nodes, suspects);
-  for (std::size_t p = 0; p < bundle.points.size(); ++p)
-    std::erase_if(bundle.points[p].clicks, [&](const BundleClick& click) { return !kept[p].clicks.contains(views[click.view].name); });
+  for (std::size_t p = 0; p < bundle.points.size(); ++p) {
+    const auto named = std::count_if(suspects.begin(), suspects.end(), [&](const SuspectClick& s) { return s.node == bundle.points[p].id; });
+    const bool anyTrusted = static_cast<std::size_t>(named) < bundle.points[p].clicks.size();  // else it must not pull at the cameras
+    std::erase_if(bundle.points[p].clicks, [&](const BundleClick& click) { return !anyTrusted || !kept[p].clicks.contains(views[click.view].name); });
+  }
   std::erase_if(bundle.points, [](const BundlePoint& point) { return point.clicks.size() < 2; });
   bundle.nodes = bundle.points.size();
   return bundle;

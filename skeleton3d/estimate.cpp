@@ -128,22 +128,46 @@ std::vector<View> inOrderOf(std::span<const View> order, const std::vector<View>
   return sorted;
 }
 
+/// Once more with the centre lines that the photos show: clicks alone have brought cameras and nodes to within a pixel or so.
+Result<Bundle> byCentreLines(const Bundle& byClicks, double click_px, const EstimateOptions& options) {
+  if (options.centreLines.empty()) return byClicks;
+  return detail::adjustBundle(detail::withCentreLines(byClicks, options.centreLines), {click_px, kLoss, options});
+}
+
+struct Finished {
+  Bundle bundle;
+  detail::Scatter scatter;  ///< of the clicks
+};
+
+Result<Finished> finishedWith(const Sifted& sifted, const EstimateOptions& options) {
+  const auto withRods = detail::withKnownLengths(sifted.kept, sifted.click_px);
+  if (!withRods) return withRods.failure();
+  const auto byClicks = detail::adjustBundle(*withRods, {sifted.click_px, kLoss, options});
+  if (!byClicks) return byClicks.failure();
+  const detail::Scatter scatter = detail::scatterOf(*byClicks);
+  auto done = byCentreLines(*byClicks, clickOr(options, scatter.click_px), options);
+  if (!done) return done.failure();
+  return Finished{*std::move(done), scatter};
+}
+
+bool sameClicks(const std::vector<SuspectClick>& a, const std::vector<SuspectClick>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const SuspectClick& x, const SuspectClick& y) { return x.node == y.node && x.view == y.view; });
+}
+
 /// Cameras that are all known: nothing to estimate, but the clicks can be judged.
 Result<EstimatedCameras> judged(std::span<const View> views, std::span<const ClickedNode> nodes, const EstimateOptions& options) {
   EstimatedCameras known{{views.begin(), views.end()}, {}, {}, {}, {}};
   std::vector<ClickedNode> shared;
   std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(shared), [](const ClickedNode& node) { return node.clicks.size() > 1; });
   const double click_px = clickOr(options, detail::robustScatterOf(views, shared).click_px);
-  for (const ClickedNode& node : shared)
-    for (SuspectClick& suspect : detail::suspectsIn(node, known.views, click_px)) known.suspects.push_back(std::move(suspect));
+  known.suspects = detail::suspectsAmong(shared, known.views, click_px, options.stems);
   auto uncertainty = uncertaintyOf(views, withoutSuspects(shared, known.suspects), options.click_px);
   if (!uncertainty) return uncertainty.failure();
   known.uncertainty = *std::move(uncertainty);
   return known;
 }
 
-EstimatedCameras resultOf(std::span<const View> order, const Bundle& bundle, std::vector<SuspectClick> suspects, const EstimateOptions& options) {
-  const detail::Scatter scatter = detail::scatterOf(bundle);
+EstimatedCameras resultOf(std::span<const View> order, const Bundle& bundle, const detail::Scatter& scatter, std::vector<SuspectClick> suspects, const EstimateOptions& options) {
   const double click_px = clickOr(options, scatter.click_px);
   const detail::BundleSpread spread = detail::spreadOf(bundle, {click_px, std::nullopt, options});
   EstimatedCameras estimated;
@@ -176,12 +200,14 @@ Result<EstimatedCameras> estimateCameras(std::span<const View> views, const std:
   if (!bundle) return bundle.failure();
   auto sifted = siftedOf(*bundle, options);
   if (!sifted) return sifted.failure();
-  auto& [suspects, kept, click_px] = *sifted;
-  const auto withRods = detail::withKnownLengths(std::move(kept), click_px);
-  if (!withRods) return withRods.failure();
-  const auto done = detail::adjustBundle(*withRods, {click_px, kLoss, options});
+  auto done = finishedWith(*sifted, options);
   if (!done) return done.failure();
-  EstimatedCameras estimated = resultOf(views, *done, std::move(suspects), options);
+  if (Sifted again = siftedWith(*bundle, done->bundle, options); !sameClicks(again.suspects, sifted->suspects)) {  // the best cameras judge last
+    sifted = std::move(again);
+    done = finishedWith(*sifted, options);
+    if (!done) return done.failure();
+  }
+  EstimatedCameras estimated = resultOf(views, done->bundle, done->scatter, std::move(sifted->suspects), options);
   for (std::string& note : detail::borderNotes(*bundle)) estimated.notes.push_back(std::move(note));
   std::string doubt = detail::doubtOn(*bundle, options);
   if (!doubt.empty() && suspectNodes(estimated.suspects) > kMostSuspect * static_cast<double>(bundle->nodes)) return misread(doubt);

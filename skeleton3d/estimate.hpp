@@ -17,6 +17,7 @@
 
 #include "base/angle.hpp"
 #include "base/result.hpp"
+#include "skeleton3d/snap.hpp"
 #include "skeleton3d/types.hpp"
 #include "skeleton3d/uncertainty.hpp"
 
@@ -41,6 +42,8 @@ struct EstimateOptions {
   /// Stems, where they are clicked already: of two clicks that could equally be the wrong one of a node, the one that makes
   /// the node leap away from its neighbours. They move no camera and no node.
   std::vector<ClickedStem> stems = {};
+  /// Centre lines read beside clicks: each fixes its node across its stem far better than the click does, and so the cameras.
+  RidgeReadings centreLines = {};
 };
 
 /// How one camera was found.

@@ -1,5 +1,6 @@
 #include "skeleton3d/known_length.hpp"
 
+#include "skeleton3d/known_length_bands.hpp"
 #include "skeleton3d/statistics.hpp"
 
 #include <glm/geometric.hpp>
@@ -14,21 +15,11 @@
 namespace axil::skeleton3d {
 namespace {
 
+using detail::colourAt;
+
 constexpr double kShortest_px = 40;
 constexpr double kStep_px = 0.25;
 constexpr double kFaint = 6;  // grey levels: below it noise
-
-/// Bilinear; beyond the photo its border goes on.
-glm::dvec3 colourAt(const Photo& photo, glm::dvec2 px) {
-  const double x = std::clamp(px.x - 0.5, 0.0, photo.width - 1.0), y = std::clamp(px.y - 0.5, 0.0, photo.height - 1.0);
-  const int left = std::min(static_cast<int>(x), std::max(photo.width - 2, 0)), top = std::min(static_cast<int>(y), std::max(photo.height - 2, 0));
-  const auto pixel = [&](int column, int row) {
-    const std::size_t at = 3 * (static_cast<std::size_t>(std::min(row, photo.height - 1)) * static_cast<std::size_t>(photo.width) + static_cast<std::size_t>(std::min(column, photo.width - 1)));
-    return glm::dvec3{photo.rgb[at], photo.rgb[at + 1], photo.rgb[at + 2]};
-  };
-  const double fx = x - left, fy = y - top;
-  return (1 - fy) * ((1 - fx) * pixel(left, top) + fx * pixel(left + 1, top)) + fy * ((1 - fx) * pixel(left, top + 1) + fx * pixel(left + 1, top + 1));
-}
 
 /// Where a rod ends: `out` points away from it, `side` across.
 struct End {
@@ -130,13 +121,15 @@ std::optional<double> alongOf(const Photo& photo, const End& end, const Across& 
   return finePlace(ends, peaks.front());
 }
 
+double reachOf(double length_px) { return std::clamp(0.06 * length_px, 4.0, 12.0); }
+
 std::optional<PhotoPoint> endNear(const Photo& photo, glm::dvec2 click, glm::dvec2 other) {
   End end;
   end.click = click;
   end.length = glm::length(click - other);
   end.out = (click - other) / end.length;
   end.side = {-end.out.y, end.out.x};
-  end.reach = std::clamp(0.06 * end.length, 4.0, 12.0);
+  end.reach = reachOf(end.length);
   const auto across = acrossOf(photo, end);
   const auto along = across ? alongOf(photo, end, *across) : std::nullopt;
   if (!along) return std::nullopt;
@@ -145,17 +138,29 @@ std::optional<PhotoPoint> endNear(const Photo& photo, glm::dvec2 click, glm::dve
 
 bool within(const Photo& photo, glm::dvec2 px) { return px.x >= 0 && px.y >= 0 && px.x <= photo.width && px.y <= photo.height; }
 
+SnappedLength measuredByBands(const KnownLength& clicked, const detail::BandedEnds& bands, std::optional<double> focal_px) {
+  SnappedLength snapped{clicked, true, true, {bands.sigma_px, bands.sigma_px}};
+  constexpr double kFront = 0.9;  // of the radius, for lines over the middle of the rod
+  const double nearer = focal_px ? kFront * bands.half_px / *focal_px : 0.0;
+  const glm::dvec2 shrink = 0.5 * nearer * (bands.to - bands.from);
+  snapped.scale.from = {bands.from + shrink};
+  snapped.scale.to = {bands.to - shrink};
+  return snapped;
+}
+
 }  // namespace
 
-SnappedLength snapKnownLength(const Photo& photo, const KnownLength& clicked) {
+SnappedLength snapKnownLength(const Photo& photo, const KnownLength& clicked, std::optional<double> focal_px) {
   SnappedLength snapped{clicked};
-  if (photo.width < 2 || photo.height < 2 || !within(photo, clicked.from.px) || !within(photo, clicked.to.px)) return snapped;
-  if (glm::length(clicked.to.px - clicked.from.px) < kShortest_px) return snapped;
+  const double length_px = glm::length(clicked.to.px - clicked.from.px);
+  if (photo.width < 2 || photo.height < 2 || !within(photo, clicked.from.px) || !within(photo, clicked.to.px) || length_px < kShortest_px) return snapped;
+  if (const auto bands = detail::bandedEnds(photo, clicked.from.px, clicked.to.px, reachOf(length_px))) return measuredByBands(clicked, *bands, focal_px);
   const auto from = endNear(photo, clicked.from.px, clicked.to.px), to = endNear(photo, clicked.to.px, clicked.from.px);
   snapped.fromMoved = from.has_value();
   snapped.toMoved = to.has_value();
-  if (from) snapped.scale.from = *from;
-  if (to) snapped.scale.to = *to;
+  constexpr double kEnd_px = 1;  // with the rim of a rod that is seen from above
+  if (from) snapped.scale.from = *from, snapped.sigma_px[0] = kEnd_px;
+  if (to) snapped.scale.to = *to, snapped.sigma_px[1] = kEnd_px;
   return snapped;
 }
 

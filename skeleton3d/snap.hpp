@@ -53,6 +53,9 @@ struct ExpectedRidge {
   double width_px = 0;
 };
 
+/// View name -> node -> what was read there.
+using RidgeReadings = std::map<std::string, std::map<NodeId, RidgeReading>>;
+
 /// The ridges at all nodes clicked in the view called `view`; nodes without one are left out. Colours of the stems are
 /// learned from the clicks themselves where there are enough of them.
 [[nodiscard]] std::map<NodeId, RidgeReading> readRidges(const Photo& photo, const std::string& view, std::span<const ClickedNode> nodes,

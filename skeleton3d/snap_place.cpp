@@ -2,6 +2,7 @@
 
 #include "skeleton3d/camera.hpp"
 #include "skeleton3d/solve_all.hpp"
+#include "skeleton3d/statistics.hpp"
 #include "skeleton3d/width.hpp"
 
 #include <glm/geometric.hpp>
@@ -30,12 +31,12 @@ struct Constraint {
 glm::dvec2 directionOf(Angle along) { return {std::cos(along.radians()), std::sin(along.radians())}; }
 
 /// The constraints of one click: its own in both directions, and across its stem the ridge's where it is believed.
-void addConstraints(const Sight& sight, bool believed, double click_px, std::vector<Constraint>& constraints) {
+void addConstraints(const Sight& sight, bool believed, double click_px, double cameras_px, std::vector<Constraint>& constraints) {
   constraints.push_back({sight.view, sight.click, {1 / click_px, 0}});
   constraints.push_back({sight.view, sight.click, {0, 1 / click_px}});
   if (!believed) return;
   const glm::dvec2 along = directionOf(sight.ridge->along);
-  constraints.push_back({sight.view, sight.ridge->at.px, glm::dvec2{-along.y, along.x} / sight.ridge->sigmaAcross_px});
+  constraints.push_back({sight.view, sight.ridge->at.px, glm::dvec2{-along.y, along.x} / std::hypot(sight.ridge->sigmaAcross_px, cameras_px)});
 }
 
 /// Pixels a unit of space, two rows; by differences, a thousandth of a pixel wide.
@@ -105,7 +106,7 @@ struct Believed {
 };
 
 /// Every choice of ridges to believe; the likeliest wins. At most kMaxViews are tried in all ways.
-Believed mostLikely(const std::vector<Sight>& sights, PlantPoint start, double click_px) {
+Believed mostLikely(const std::vector<Sight>& sights, PlantPoint start, double click_px, double cameras_px) {
   std::vector<std::size_t> withRidge;
   for (std::size_t i = 0; i < sights.size(); ++i)
     if (sights[i].ridge != nullptr && withRidge.size() < 6) withRidge.push_back(i);
@@ -119,7 +120,7 @@ Believed mostLikely(const std::vector<Sight>& sights, PlantPoint start, double c
       believed[withRidge[k]] = (choice >> k & 1U) != 0;
       if (!believed[withRidge[k]]) cost += costOfDisbelief(*sights[withRidge[k]].ridge);
     }
-    for (std::size_t i = 0; i < sights.size(); ++i) addConstraints(sights[i], believed[i], click_px, constraints);
+    for (std::size_t i = 0; i < sights.size(); ++i) addConstraints(sights[i], believed[i], click_px, cameras_px, constraints);
     const Placed here = placed(constraints, start);
     cost += here.squares;
     if (choice > 0 && !(cost < best.cost)) continue;
@@ -176,9 +177,11 @@ std::map<NodeId, double> taperedRadiiOf(std::span<const View> views, std::span<c
   return radii;
 }
 
-/// Where each node and how wide its stem is to be seen, by view.
-std::map<std::string, std::map<NodeId, ExpectedRidge>> expectedRidges(std::span<const View> views, std::span<const SnappedNode> placed, const std::map<NodeId, double>& radii) {
-  std::map<std::string, std::map<NodeId, ExpectedRidge>> expected;
+}  // namespace
+
+ExpectedRidges expectedRidges(std::span<const View> views, std::span<const SnappedNode> placed, std::span<const ClickedStem> stems, const RidgeReadings& readings) {
+  const std::map<NodeId, double> radii = taperedRadiiOf(views, placed, stems, readings);
+  ExpectedRidges expected;
   for (const View& view : views)
     for (const SnappedNode& node : placed) {
       const auto slopes = slopesOf(view.camera, node.at);
@@ -189,16 +192,51 @@ std::map<std::string, std::map<NodeId, ExpectedRidge>> expectedRidges(std::span<
   return expected;
 }
 
-}  // namespace
+RidgeReadings readAllRidges(const Photos& photos, std::span<const ClickedNode> nodes, std::span<const ClickedStem> stems, const SnapOptions& options, const ExpectedRidges& expected) {
+  RidgeReadings readings;
+  for (const auto& [view, photo] : photos) {
+    const auto known = expected.find(view);
+    readings[view] = readRidges(photo, view, nodes, stems, options, known == expected.end() ? std::map<NodeId, ExpectedRidge>{} : known->second);
+  }
+  return readings;
+}
 
-Result<std::vector<SnappedNode>> placeSnapped(std::span<const View> views, std::span<const ClickedNode> nodes, const RidgeReadings& readings, double click_px) {
+RidgeReadings believedReadings(const RidgeReadings& readings, std::span<const SnappedNode> placed) {
+  RidgeReadings believed;
+  for (const SnappedNode& node : placed)
+    for (const std::string& view : node.snappedIn) believed[view].emplace(node.id, readings.at(view).at(node.id));
+  return believed;
+}
+
+RidgeReadings withTrueScatter(RidgeReadings readings, std::span<const View> views, std::span<const SnappedNode> placed) {
+  std::vector<double> shares;
+  for (const SnappedNode& node : placed) {
+    double squares = 0;
+    for (const std::string& name : node.snappedIn) {
+      const RidgeReading& ridge = readings.at(name).at(node.id);
+      const glm::dvec2 along = directionOf(ridge.along), off = project(detail::findView(views, name)->camera, node.at).px - ridge.at.px;
+      squares += std::pow(glm::dot(off, glm::dvec2{-along.y, along.x}) / ridge.sigmaAcross_px, 2);
+    }
+    const int freedom = static_cast<int>(node.snappedIn.size()) - 2;  // two lines always meet nearly
+    if (freedom > 0) shares.push_back(squares / detail::chiSquaredMedian(freedom));
+  }
+  constexpr std::size_t kFewest = 5;
+  if (shares.size() < kFewest) return readings;
+  const double factor = std::sqrt(std::max(detail::medianOf(std::move(shares)), 1.0));
+  for (auto& [view, nodes] : readings)
+    for (auto& [id, ridge] : nodes) ridge.sigmaAcross_px *= factor;
+  return readings;
+}
+
+Result<std::vector<SnappedNode>> placeSnapped(std::span<const View> views, std::span<const ClickedNode> nodes, const RidgeReadings& readings, double click_px,
+                                              double cameras_px) {
   const auto solved = detail::solveAll(views, nodes, {.click_px = click_px}, "plant units");
   if (!solved) return solved.failure();
   std::vector<SnappedNode> result;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!solved->nodes[i]) continue;
     const std::vector<Sight> sights = sightsOf(views, nodes[i], readings);
-    const Believed best = mostLikely(sights, solved->nodes[i]->position, click_px);
+    const Believed best = mostLikely(sights, solved->nodes[i]->position, click_px, cameras_px);
     SnappedNode node{nodes[i].id, best.placed.at, glm::inverse(best.placed.normal), {}};
     for (std::size_t k = 0; k < sights.size(); ++k)
       if ((best.which >> k & 1U) != 0) node.snappedIn.push_back(sights[k].view->name);
@@ -211,18 +249,13 @@ Result<std::vector<SnappedNode>> placeSnapped(std::span<const View> views, std::
 Result<Snapping> snapNodes(std::span<const View> views, const Photos& photos, std::span<const ClickedNode> nodes, std::span<const ClickedStem> stems,
                            const SnapOptions& options) {
   Snapping snapping;
-  const auto read = [&](const std::map<std::string, std::map<NodeId, ExpectedRidge>>& expected) {
-    RidgeReadings readings;
-    for (const auto& [view, photo] : photos) {
-      const auto known = expected.find(view);
-      readings[view] = readRidges(photo, view, nodes, stems, options, known == expected.end() ? std::map<NodeId, ExpectedRidge>{} : known->second);
-    }
-    return readings;
-  };
-  snapping.readings = read({});
+  snapping.readings = readAllRidges(photos, nodes, stems, options);
   auto placed = placeSnapped(views, nodes, snapping.readings, options.click_px);
   if (!placed) return placed.failure();
-  snapping.readings = read(expectedRidges(views, *placed, taperedRadiiOf(views, *placed, stems, snapping.readings)));
+  snapping.readings = readAllRidges(photos, nodes, stems, options, expectedRidges(views, *placed, stems, snapping.readings));
+  placed = placeSnapped(views, nodes, snapping.readings, options.click_px);
+  if (!placed) return placed.failure();
+  snapping.readings = withTrueScatter(std::move(snapping.readings), views, *placed);
   placed = placeSnapped(views, nodes, snapping.readings, options.click_px);
   if (!placed) return placed.failure();
   snapping.nodes = *std::move(placed);

@@ -20,9 +20,6 @@
 
 namespace axil::skeleton3d {
 
-/// View name -> node -> what was read there.
-using RidgeReadings = std::map<std::string, std::map<NodeId, RidgeReading>>;
-
 struct SnappedNode {
   NodeId id;
   PlantPoint at;
@@ -35,8 +32,14 @@ struct SnappedNode {
 };
 
 /// Fails where the cameras or the clicks are wrong, as solveNodes does.
+/// `cameras_px`: how far the cameras themselves may be off, where they were estimated.
 [[nodiscard]] Result<std::vector<SnappedNode>> placeSnapped(std::span<const View> views, std::span<const ClickedNode> nodes, const RidgeReadings& readings,
-                                                            double click_px = 3);
+                                                            double click_px = 3, double cameras_px = 0);
+
+/// The readings that were believed where nodes were placed.
+[[nodiscard]] RidgeReadings believedReadings(const RidgeReadings& readings, std::span<const SnappedNode> placed);
+/// The readings with standard deviations as large as the believed ones scatter about their nodes; never smaller than read.
+[[nodiscard]] RidgeReadings withTrueScatter(RidgeReadings readings, std::span<const View> views, std::span<const SnappedNode> placed);
 
 /// Photos by the names of their views.
 using Photos = std::map<std::string, Photo>;
@@ -46,8 +49,15 @@ struct Snapping {
   RidgeReadings readings;
 };
 
+/// The ridges at all nodes in all photos; `expected`, where something is known of the nodes already.
+using ExpectedRidges = std::map<std::string, std::map<NodeId, ExpectedRidge>>;
+[[nodiscard]] RidgeReadings readAllRidges(const Photos& photos, std::span<const ClickedNode> nodes, std::span<const ClickedStem> stems, const SnapOptions& options,
+                                          const ExpectedRidges& expected = {});
+/// Where each node and how wide its stem is to be seen, from where nodes were placed and the tapers of their stems.
+[[nodiscard]] ExpectedRidges expectedRidges(std::span<const View> views, std::span<const SnappedNode> placed, std::span<const ClickedStem> stems, const RidgeReadings& readings);
+
 /// All of it: ridges read in every photo, nodes placed, each stem's taper found from all its widths, and ridges and places
-/// found again with that known, which tells a stem from what overlaps it in a photo. Cameras must be known or estimated.
+/// found again with that known, which tells a stem from what overlaps it in a photo. Cameras must be known; see photographed.hpp.
 [[nodiscard]] Result<Snapping> snapNodes(std::span<const View> views, const Photos& photos, std::span<const ClickedNode> nodes, std::span<const ClickedStem> stems,
                                          const SnapOptions& options = {});
 

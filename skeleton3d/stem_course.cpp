@@ -54,4 +54,11 @@ double likelihoodAt(const StemCourse& course, NodeId node, const glm::dvec3& at)
   return sum;
 }
 
+bool leapsAt(const StemCourse& course, NodeId node, const glm::dvec3& at) {
+  const auto runs = course.around.find(node);
+  if (runs == course.around.end()) return false;
+  constexpr double kFar = 5;  // times the usual leap, as a mean over the runs
+  return likelihoodAt(course, node, at) < -static_cast<double>(runs->second.size()) * std::log1p(kFar * kFar);
+}
+
 }  // namespace axil::skeleton3d::detail

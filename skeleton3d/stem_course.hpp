@@ -27,4 +27,7 @@ struct StemCourse {
 /// The logarithm of how likely `node` stands at `at`, up to a constant; 0 for a node of no stem.
 [[nodiscard]] double likelihoodAt(const StemCourse& course, NodeId node, const glm::dvec3& at);
 
+/// There the node would be far off its stems, by how nodes usually follow one another.
+[[nodiscard]] bool leapsAt(const StemCourse& course, NodeId node, const glm::dvec3& at);
+
 }  // namespace axil::skeleton3d::detail

@@ -67,6 +67,7 @@ struct UnknownCameraHints {
   std::optional<PhotoPoint> origin_px;      ///< the plant's origin (collar) in this photo
   std::optional<KnownLength> scale;         ///< where several views give the same length it is taken for the same object
   std::optional<double> exif_focal_px;      ///< what the photo's EXIF data say: good to some percent
+  std::array<std::optional<double>, 2> scaleSigma_px = {};  ///< standard deviations of the ends of `scale`; nothing: as of any click
 
   friend bool operator==(const UnknownCameraHints&, const UnknownCameraHints&) = default;
 };
