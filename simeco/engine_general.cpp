@@ -1,9 +1,7 @@
 // The general way: one module after the other, so that statements run in their order. Decomposition, cuts, sub-L-systems,
-// rings, predecessors of several modules; also the homomorphism, which is decomposition into another string.
+// rings, predecessors of several modules.
 
 #include "simeco/engine_pass.hpp"
-
-#include <numeric>
 
 namespace axil::simeco {
 
@@ -67,31 +65,6 @@ Result<void> Engine::State::findVisits() {
   if (!pass.nameVisits(string.codes(), string.parameters())) return pass.failure();
   visits = pass.takeVisits();
   return {};
-}
-
-Result<Image> Engine::State::makeImage(const ModuleString& of) {
-  const auto drawnAsItIs = [](const System& system) { return system.homomorphism.empty(); };
-  if (std::all_of(program->systems.begin(), program->systems.end(), drawnAsItIs)) {
-    Image same{of, std::vector<std::uint32_t>(of.size()), {}};
-    std::iota(same.source.begin(), same.source.end(), 0u);
-    return same;
-  }
-  Image image{ModuleString(program->symbols), {}, {}};
-  Arrays out;
-  std::fill(made.begin(), made.end(), 0);
-  around.read(*program, program->main().ignored, needs, of.codes());
-  const Instance mainBefore = main;
-  const std::vector<Instance> visitsBefore = visits;
-  Pass pass(*this, of, nullptr);
-  const bool drawn = pass.draw(out, image);
-  // An image is a view: what its statements do to variables is forgotten.
-  main = mainBefore;
-  visits = visitsBefore;
-  if (!drawn) return pass.failure();
-  if (pass.depthReached()) note("the maximum depth of the homomorphism kept rules from being applied");
-  image.string.codeBuffer() = std::move(out.codes);
-  image.string.parameterBuffer() = std::move(out.parameters);
-  return image;
 }
 
 }  // namespace axil::simeco

@@ -22,7 +22,7 @@ using IncludeReader = std::function<Result<std::string>(const std::string& name)
 
 struct LSystemOptions {
   IncludeReader include = {};                  ///< none: `#include` is an error
-  std::size_t macroTextLimit = std::size_t{64} << 20;  ///< bytes that macros and includes may add to the text
+  std::size_t macroTextLimit = 16'000'000;  ///< bytes that macros and includes may add to the text
 };
 
 /// Parses an L-system file (ASCII outside comments and quoted texts). Syntax only; `checkLSystem` finds the rest.

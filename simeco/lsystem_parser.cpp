@@ -2,6 +2,7 @@
 
 #include "simeco/lsystem_reader.hpp"
 #include "simeco/report.hpp"
+#include "simeco/vocabulary.hpp"
 
 #include "base/text.hpp"
 
@@ -678,8 +679,8 @@ class LSystemParser : private LSystemReader {
 
 Parsed parseLSystem(std::string_view text, const LSystemOptions& options) {
   Parsed parsed;
-  if (text.size() > 0xfffffff0u) {
-    parsed.diagnostics.push_back({Severity::Error, {}, "the text is larger than 4 GB"});
+  if (text.size() > kMostBytes) {
+    parsed.diagnostics.push_back({Severity::Error, {}, "the text is larger than 32 MB", "let rules make what the axiom spells out"});
     return parsed;
   }
   const Preprocessed source = preprocessLSystem(text, options);

@@ -17,14 +17,20 @@ namespace {
 class PlantMaker : public TurtleSink {
  public:
   PlantMaker(const Derivation& derivation, const Image& image, const LSystemView& view) : derivation_(derivation), image_(image), view_(view) {
-    std::array<bool, 256> draws{};
+    std::array<std::uint8_t, 256> draws{}, outlines{};
     for (std::size_t code = 0; code < image.string.symbols().size(); ++code) {
       const std::string& letter = image.string.symbols()[code].letter;
-      draws[code] = letter == "F" || letter == "G" || letter == "~";
+      draws[code] = letter == "F" || letter == "G" || letter == "~" ? 1 : 0;
+      outlines[code] = letter == "{" && image.string.symbols()[code].parameters == 0 ? 1 : 0;
     }
-    const auto organs = std::count_if(image.string.codes().begin(), image.string.codes().end(), [&](SymbolCode code) { return draws[code]; });
-    plant_.organs.reserve(static_cast<std::size_t>(organs));
-    organOf_.reserve(static_cast<std::size_t>(organs));
+    std::size_t organs = 0, faces = 0;
+    for (const SymbolCode code : image.string.codes()) {
+      organs += draws[code];
+      faces += outlines[code];
+    }
+    plant_.faces.reserve(faces);
+    plant_.organs.reserve(organs);
+    organOf_.reserve(organs);
   }
 
   void segment(const TurtleSegment& s) override {
@@ -60,6 +66,7 @@ class PlantMaker : public TurtleSink {
 
   void polygon(const TurtlePolygon& p) override {
     PlantFace face;
+    face.vertices.reserve(p.vertices.size());
     for (const glm::dvec3& vertex : p.vertices) {
       // f and . often record one point twice.
       if (face.vertices.empty() || face.vertices.back().at != vertex) face.vertices.push_back({vertex});

@@ -6,9 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
+#include <utility>
 
 namespace axil::simeco {
 
@@ -182,8 +186,16 @@ class Turtle {
   [[nodiscard]] SineCosine angle(const Token& t) {
     const double degrees = t.count() > 0 ? t.parameters[0] : view_.angleIncrement.degrees();
     if (!std::isfinite(degrees)) broken_ = true;
-    return broken_ ? SineCosine{} : sineCosine(degrees);
+    if (broken_) return {};
+    // A plant turns by the same few angles over and over.
+    KnownAngle& known = angles_[(std::bit_cast<std::uint64_t>(degrees) * 0x9E3779B97F4A7C15ull) >> 58];
+    if (known.degrees != degrees) known = {degrees, sineCosine(degrees)};
+    return known.turn;
   }
+  struct KnownAngle {
+    double degrees = std::numeric_limits<double>::quiet_NaN();
+    SineCosine turn;
+  };
 
   // ---- moving
 
@@ -315,7 +327,8 @@ class Turtle {
   void openBrace(const Token& t, std::size_t module) {
     flush();
     const double type = t.value(0, 0);
-    braces_.push_back({type >= 1 && type <= 4 ? static_cast<int>(type) : 0, module, {}});
+    braces_.push_back({type >= 1 && type <= 4 ? static_cast<int>(type) : 0, module, std::exchange(points_, {})});
+    braces_.back().points.clear();
     if (braces_.back().curve != 0) record(1);
   }
   void closeBrace(const Token&) {
@@ -324,19 +337,20 @@ class Turtle {
       ++unmatched_;
       return;
     }
-    const Brace brace = std::move(braces_.back());
+    Brace brace = std::move(braces_.back());
     braces_.pop_back();
-    if (brace.curve == 0) return polygon(brace);
-    if (brace.curve <= 2) hermite(brace);
+    if (brace.curve == 0) polygon(brace);
+    else if (brace.curve <= 2) hermite(brace);
     else bSpline(brace);
+    points_ = std::move(brace.points);
   }
   void polygon(const Brace& brace) {
-    TurtlePolygon p;
-    for (const CurvePoint& point : brace.points) p.vertices.push_back(point.frame.position);
-    p.frame = state_.frame;
-    p.colour = state_.colour;
-    p.module = brace.module;
-    sink_.polygon(p);
+    polygon_.vertices.clear();
+    for (const CurvePoint& point : brace.points) polygon_.vertices.push_back(point.frame.position);
+    polygon_.frame = state_.frame;
+    polygon_.colour = state_.colour;
+    polygon_.module = brace.module;
+    sink_.polygon(polygon_);
   }
 
   // ---- generalised cylinders: a centre line cut into strips
@@ -635,6 +649,8 @@ class Turtle {
   TurtleState state_;
   std::vector<TurtleState> stack_;
   std::vector<Brace> braces_;
+  std::vector<CurvePoint> points_;   ///< room that closed braces gave back
+  TurtlePolygon polygon_;            ///< the last one
   std::vector<Scaled> scales_;
   std::optional<TurtleSegment> waiting_;
   std::size_t segments_ = 0;
@@ -644,6 +660,7 @@ class Turtle {
   RadiusTangents radius_;
   bool radiusByLength_ = false;
   std::map<int, Patch> patches_;
+  std::array<KnownAngle, 64> angles_;
   std::size_t unmatched_ = 0;
   bool broken_ = false;
   TurtleReport report_;

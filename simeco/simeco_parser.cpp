@@ -291,7 +291,7 @@ std::uint32_t firstBadByte(std::string_view text) {
 }  // namespace
 
 Parsed parseSimeco(std::string_view text) {
-  if (text.size() > kMostBytes) return refused("the text is larger than 100 MB", "split the ecosystem into several files");
+  if (text.size() > kMostBytes) return refused("the text is larger than 32 MB", "split the ecosystem into several files");
   if (!isUtf8(text)) {
     const std::uint32_t at = firstBadByte(text);
     return refused("the text is not UTF-8 from here on", "save the file as UTF-8", {at, at + 1});

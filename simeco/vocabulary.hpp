@@ -56,8 +56,8 @@ struct LetterWord {
 
 inline constexpr std::string_view kVersions[] = {"1.0", "1.1"};
 
-/// Stated limits of the text.
-inline constexpr std::size_t kMostBytes = 100'000'000;
+/// Stated limits of the text, in both languages. A grammar takes some fifty times its text's memory, so that one of this size still fits.
+inline constexpr std::size_t kMostBytes = 32'000'000;
 inline constexpr int kMostDepth = 200;      ///< of nested expressions, statements
 inline constexpr int kMostBrackets = 1000;  ///< of nested branches in one rule
 

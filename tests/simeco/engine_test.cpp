@@ -78,6 +78,16 @@ class RandomGrammar {
     }
     return text + "endlsystem\n";
   }
+  /// The same kind of grammar with a homomorphism.
+  std::string drawnText() {
+    std::string drawn = text();
+    drawn.resize(drawn.size() - std::string_view("endlsystem\n").size());
+    contexts_ = chance(0.2);
+    stochastic_ = stochastic_ && chance(0.3);
+    drawn += "homomorphism\nmaximum depth: " + std::to_string(rng_.below(4)) + "\n";
+    for (int i = 0; i < 3; ++i) drawn += rule(4, false);
+    return drawn + "endlsystem\n";
+  }
 
  private:
   bool chance(double share) { return rng_.uniform() < share; }
@@ -144,6 +154,56 @@ TEST(Engine, EveryWayMakesTheSameString) {
     EXPECT_EQ(derivedBy(parsed.grammar, {}, 7, seed), expected) << "seed " << seed << "\n" << text;
     EXPECT_EQ(derivedBy(parsed.grammar, {.threads = 3}, 7, seed), expected) << "three threads, seed " << seed << "\n" << text;
     EXPECT_EQ(derivedBy(parsed.grammar, {.threads = 2, .modulesForCalm = 1, .stepByStep = true}, 7, seed), expected) << "calm, seed " << seed << "\n" << text;
+  }
+}
+
+Image imageBy(const Grammar& grammar, bool general, std::uint64_t seed, std::vector<std::string>& warnings) {
+  EngineOptions options;
+  options.seed = seed;
+  options.generalWay = general;
+  options.limits.modules = 200'000;
+  auto engine = Engine::create(compile(grammar, 0).value(), options).value();
+  EXPECT_TRUE(engine->start());
+  std::vector<std::size_t> counts;
+  if (!engine->run(3, counts)) return {};
+  auto image = engine->imageOf(engine->string());
+  warnings = engine->warnings();
+  return image ? *std::move(image) : Image{};
+}
+
+TEST(Engine, EveryWayDrawsTheSameImage) {
+  std::size_t drawn = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const std::string text = RandomGrammar(seed).drawnText();
+    const Grammar grammar = grammarOf(text);
+    std::vector<std::string> generalWarnings, warnings;
+    const Image expected = imageBy(grammar, true, seed, generalWarnings), image = imageBy(grammar, false, seed, warnings);
+    EXPECT_EQ(toText(image.string), toText(expected.string)) << "seed " << seed << "\n" << text;
+    EXPECT_EQ(image.source, expected.source) << "seed " << seed << "\n" << text;
+    EXPECT_EQ(image.drawnBy, expected.drawnBy) << "seed " << seed << "\n" << text;
+    EXPECT_EQ(warnings, generalWarnings) << "seed " << seed << "\n" << text;
+    drawn += image.drawnBy.empty() ? 0 : 1;
+  }
+  EXPECT_GT(drawn, 200u);
+}
+
+TEST(Engine, DecompositionOfAnyDepthIsTheSameEveryWay) {
+  const std::string chain = "A(n) : n>0 --> B(n,2*n)[+A(n-1)]C\nA(n) --> D[A(n+90)]\n", tree = "A(n) : n>1 --> I(1)[+(40)A(n-2)]I(n)[-(30)A(n-1)]A(n-2)\nI(n) : n>0 --> I(n-1)F(n)\n";
+  const std::string lottery = "A(n) --> A(n+5)B : 1\nA(n) --> A(n+7)[C] : 2\n";
+  struct Model {
+    std::string head, rules, depth;
+  };
+  // Depths below, at and above those that calls follow.
+  for (const auto& [head, rules, depth] : {Model{"", "C --> C", "1"}, Model{"", "A(n) --> A(n+60)", "47"}, Model{"", "A(n) --> A(n+60)", "48"}, Model{"", "A(n) --> A(n+60)", "49"},
+                                           Model{"", "A(n) : n<7 --> [A(n+1)]A(n+200)", "50"}, Model{"", "A(n) --> A(n)", "150"}, Model{"seed: 3\n", lottery, "70"}, Model{"seed: 3\n", lottery, "5"}}) {
+    for (const std::string& decomposition : {chain, tree}) {
+      const std::string text = "Lsystem: 1\n" + head + "derivation length: 3\nAxiom: A(3)[A(9)C]A(12)A(0)\n" + rules + "\ndecomposition\nmaximum depth: " + depth + "\n" + decomposition + "endlsystem\n";
+      const Grammar grammar = grammarOf(text);
+      const Outcome expected = derivedBy(grammar, {.general = true, .stepByStep = true}, 2, 4);
+      EXPECT_EQ(derivedBy(grammar, {}, 2, 4), expected) << text;
+      EXPECT_EQ(derivedBy(grammar, {.threads = 3}, 2, 4), expected) << text;
+      EXPECT_EQ(derivedBy(grammar, {}, 2, 4, true), derivedBy(grammar, {.general = true}, 2, 4, true)) << text;
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include "base/files.hpp"
 #include "base/rng.hpp"
 #include "simeco/language.hpp"
+#include "simeco/lsystem_language.hpp"
 #include "simeco/language_random.hpp"
 #include "support/shared_data.hpp"
 
@@ -185,11 +186,12 @@ TEST(Limit, WarningsGiveWayToErrors) {
   EXPECT_TRUE(hasErrors(found));
 }
 
-TEST(Limit, ATextOfMoreThanAHundredMegabytesIsRefused) {
-  const std::string text(100'000'001, ' ');
-  const Parsed parsed = parseSimeco(text);
-  ASSERT_EQ(parsed.diagnostics.size(), 1u);
-  EXPECT_NE(parsed.diagnostics[0].message.find("100 MB"), std::string::npos);
+TEST(Limit, ATextOfMoreThanThirtyTwoMegabytesIsRefusedInBothLanguages) {
+  const std::string text(32'000'001, 'F');
+  for (const Parsed& parsed : {parseSimeco(text), parseLSystem(text)}) {
+    ASSERT_EQ(parsed.diagnostics.size(), 1u);
+    EXPECT_NE(parsed.diagnostics[0].message.find("32 MB"), std::string::npos);
+  }
 }
 
 }  // namespace
