@@ -120,6 +120,14 @@ Taken pick(const Panel& panel) {
   return {};
 }
 
+/// The clicks that the photos propose for the selected stem, in every photo that shows it.
+Taken takeProposals(const Panel& panel) {
+  Step step;
+  for (const ProposedStem& proposed : panel.proposals.all())
+    for (document::Command& command : stepOf(proposed)) step.push_back(std::move(command));
+  return step;
+}
+
 /// One step back from whatever a person is in the middle of.
 Taken escape(const Panel& panel) {
   UiState& state = panel.state;
@@ -170,6 +178,7 @@ constexpr Action kActions[] = {
     {"key_select_all", "Ctrl+A", {GLFW_KEY_A, Control}, hasNodes, selectAll},
     {"key_select_stem", "A", {GLFW_KEY_A}, hasSelection, selectStem},
     {"key_delete", "Delete", {GLFW_KEY_DELETE}, hasSelection, removeSelected},
+    {"key_take", "Enter", {GLFW_KEY_ENTER}, [](const Panel& p) { return !p.proposals.all().empty(); }, takeProposals},
     {"key_split", "X", {GLFW_KEY_X}, stepExists<splitAt>, takeStep<splitAt>},
     {"key_join", "J", {GLFW_KEY_J}, hasSelection, pick<Pick::Kind::Join>},
     {"key_attach", "B", {GLFW_KEY_B}, hasSelection, pick<Pick::Kind::Attach>},

@@ -7,6 +7,7 @@
 #include "ui/following.hpp"
 #include "ui/ghosts.hpp"
 #include "ui/photos.hpp"
+#include "ui/proposals.hpp"
 #include "ui/state.hpp"
 #include "ui/wires.hpp"
 
@@ -31,6 +32,7 @@ struct Panel {
   const Following& following;
   const Photos& photos;
   const Wires& wires;
+  const Proposals& proposals;
   const Texts& texts;
   const Palette& palette;
   const Texture& plantPicture;
@@ -39,6 +41,11 @@ struct Panel {
   const ExportState& exporting;
   UiState& state;
 
+  /// What has been measured so far; nothing before any camera is known.
+  [[nodiscard]] std::optional<Placed> placed() const {
+    if (!following.measured.good) return std::nullopt;
+    return Placed{*following.measured.good, following.skeleton.good.get()};
+  }
   /// What is shown and grown: the draft where it grows, else the last that did.
   [[nodiscard]] const GrownGrammar* shown() const {
     return state.grammarDraft && draft && draft->growth ? draft.get() : following.grammar(state.kind);

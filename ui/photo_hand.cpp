@@ -67,10 +67,17 @@ std::optional<skeleton3d::RidgeReading> ridgeNear(const Pane& pane, PhotoPoint a
   return skeleton3d::snapClick(pane.photo->tiles->photo(), at, {.reach_px = std::clamp(kReach_px / pane.lens.frame.zoom, 2.0, kMost_px)});
 }
 
-/// The way along the stem from the node that would go on to `at`; nothing where tracing is off or no stem leads there.
+/// Whether the camera of another photo is known, so that a traced stem can be found there too.
+bool seesFromElsewhere(const Pane& pane) {
+  const auto& views = pane.panel.project.views;
+  return std::any_of(views.begin(), views.end(), [&](const document::ProjectView& view) { return view.view.name != pane.name() && cameraOf(pane.panel, view.view.name) != nullptr; });
+}
+
+/// The way along the stem from the node that would go on to `at`; nothing where tracing is off, no stem leads there, or its nodes would
+/// have to be clicked one by one in the other photos.
 std::optional<skeleton3d::WirePath> wireTo(const Pane& pane, const ClickMeaning& meaning, PhotoPoint at) {
   const bool grows = meaning.kind == ClickKind::Extend || meaning.kind == ClickKind::Branch;
-  if (!grows || !pane.state().trace || !meaning.node || pane.photo == nullptr || !pane.photo->tiles) return std::nullopt;
+  if (!grows || !pane.state().trace || !seesFromElsewhere(pane) || !meaning.node || pane.photo == nullptr || !pane.photo->tiles) return std::nullopt;
   const auto place = document::nodeWithId(pane.panel.project, *meaning.node);
   if (!place) return std::nullopt;
   const auto& clicks = pane.panel.project.nodes[*place].node.clicks;
@@ -83,6 +90,19 @@ std::vector<PhotoPoint> placesOf(const skeleton3d::WirePath& wire) {
   std::vector<PhotoPoint> places;
   for (std::size_t i = 1; i < wire.nodes.size(); ++i) places.push_back(wire.nodes[i].at);
   return places;
+}
+
+/// With a tip that is clicked here, the nodes before it that are not get their places on the way to it: as proposed, or with its end here.
+std::optional<ProposedStem> wholeStem(const Pane& pane, const ClickMeaning& meaning, PhotoPoint at) {
+  const auto placed = pane.panel.placed();
+  if (meaning.kind != ClickKind::Place || !pane.state().trace || !placed || !meaning.node || pane.photo == nullptr || !pane.photo->tiles) return std::nullopt;
+  const ProposedStem* known = pane.panel.proposals.in(pane.name());
+  if (known != nullptr && glm::distance(known->clicks.back().second.px, at.px) < pane.reach()) return *known;
+  const skeleton3d::LiveWire* photo = pane.panel.wires.ready(pane.photo->tiles->sharedPhoto());
+  auto question = photo == nullptr ? std::nullopt : stemQuestion(pane.panel.project, *placed, *meaning.node, pane.name(), *photo);
+  if (!question || question->nodes.size() < 3) return std::nullopt;
+  question->options.endInOther = at;
+  return proposedStem(*question);
 }
 
 /// Whether a click of this meaning puts a node somewhere.
@@ -189,12 +209,13 @@ Taken clicked(const Pane& pane, PhotoPoint at) {
     PhotoClick click = clickAt(pane, wire->nodes.back().at);
     click.picking = Picking::OnlyPlace;
     meaning = meaningAlong(pane.panel.project, state.selection, click, placesOf(*wire));
-  } else if (places(meaning))
-    if (const auto ridge = ridgeNear(pane, at)) {
-      PhotoClick click = clickAt(pane, ridge->at);
-      click.picking = Picking::OnlyPlace;
-      meaning = meaningOf(pane.panel.project, state.selection, click);
-    }
+  } else if (places(meaning)) {
+    const auto ridge = ridgeNear(pane, at);
+    if (const auto whole = wholeStem(pane, meaning, ridge ? ridge->at : at)) return Taken{stepOf(*whole)};
+    PhotoClick click = clickAt(pane, ridge ? ridge->at : at);
+    click.picking = Picking::OnlyPlace;
+    if (ridge) meaning = meaningOf(pane.panel.project, state.selection, click);
+  }
   state.selection = meaning.after;
   return meaning.step.empty() ? Taken{} : Taken{meaning.step};
 }
@@ -315,6 +336,7 @@ Taken photoHand(Pane& pane) {
     state.wire = wireTo(pane, meaning, at);
     if (places(meaning) && !state.wire) state.ridge = ridgeNear(pane, at);
     if (state.wire) state.status += "  " + filled(pane.panel.t("follows"), {{"n", std::to_string(state.wire->nodes.size() - 1)}});
+    if (meaning.kind == ClickKind::Place && pane.panel.proposals.in(pane.name()) != nullptr) state.status += "  " + std::string(pane.panel.t("proposal_take"));
     if (state.ridge) state.status += "  " + filled(pane.panel.t("snaps"), {{"percent", std::to_string(std::lround(100 * state.ridge->confidence))}});
   }
   return std::nullopt;

@@ -188,6 +188,62 @@ void drawWire(const Pane& pane, const skeleton3d::WirePath& wire, Colour colour)
   }
 }
 
+/// The stem of the selected node as this photo seems to show it.
+void drawProposal(const Pane& pane, const ProposedStem& proposed) {
+  const auto stem = stemOf(pane.panel.project, proposed.clicks.back().first);
+  const Colour colour = stem ? colourOf(*stem) : rgb(0xFFFFFF);
+  for (std::size_t i = 1; i < proposed.line.size(); i += 2)
+    pane.list.AddLine(pane.lens.onScreen(proposed.line[i - 1]), pane.lens.onScreen(proposed.line[i]), colour, pane.panel.px(2.4f));
+  for (const auto& [node, at] : proposed.clicks) {
+    pane.list.AddCircleFilled(pane.lens.onScreen(at), pane.panel.px(3.2f), rgb(0xFFFFFF, 200), 16);
+    pane.list.AddCircle(pane.lens.onScreen(at), pane.panel.px(4.4f), colour, 16, pane.panel.px(1.6f));
+  }
+}
+
+/// Which point of another photo is looked for in this one: of the selected node, or under the mouse.
+struct Sought {
+  std::string first;
+  PhotoPoint at;
+  std::optional<NodeId> before;
+};
+std::optional<Sought> soughtHere(const Pane& pane) {
+  const UiState& state = pane.state();
+  const auto selected = state.selection.node ? document::nodeWithId(pane.panel.project, *state.selection.node) : std::nullopt;
+  if (selected) {
+    const auto& node = pane.panel.project.nodes[*selected].node;
+    if (!node.clicks.contains(pane.name()) && !node.clicks.empty()) return Sought{node.clicks.begin()->first, node.clicks.begin()->second, {}};
+  }
+  if (!state.hover || state.hover->first == pane.name() || !state.selection.node) return std::nullopt;
+  return Sought{state.hover->first, state.ridge ? state.ridge->at : state.hover->second, state.selection.node};
+}
+
+/// The likeliest places, the best with a number; worked out anew when the point has moved.
+void drawCandidates(const Pane& pane) {
+  constexpr std::size_t kShown = 3;
+  UiState& state = pane.state();
+  if (!state.trace || state.way != Way::Stems || pane.photo == nullptr || !pane.photo->tiles) return;
+  const auto sought = soughtHere(pane);
+  const auto placed = pane.panel.placed();
+  const skeleton3d::LiveWire* photo = pane.panel.wires.ready(pane.photo->tiles->sharedPhoto());
+  if (!sought || !placed || photo == nullptr) return;
+  const bool isKnown = state.candidates && state.candidates->first == sought->first && state.candidates->at == sought->at && state.candidates->before == sought->before;
+  if (!isKnown) state.candidates = Candidates{sought->first, sought->at, sought->before, {}};
+  const auto [places, isNew] = state.candidates->places.try_emplace(pane.name());
+  if (isNew) places->second = placesFor(*placed, sought->first, sought->at, pane.name(), *photo, sought->before);
+  ImGui::PushFont(font(Face::Small));
+  for (std::size_t i = 0; i < std::min(kShown, places->second.size()); ++i) {
+    const auto& [candidate, rank] = places->second[i];
+    const ImVec2 at = pane.lens.onScreen(candidate.at);
+    const std::uint32_t alpha = static_cast<std::uint32_t>(std::clamp(90 + 165 * rank.probability, 90.0, 255.0));
+    pane.list.AddCircle(at, pane.panel.px(6.5f), rgb(0x000000, alpha / 2), 20, pane.panel.px(3.4f));
+    pane.list.AddCircle(at, pane.panel.px(6.5f), rgb(0xFFFFFF, alpha), 20, pane.panel.px(1.6f));
+    const std::string number = std::to_string(i + 1);
+    pane.list.AddText({at.x + pane.panel.px(9), at.y - pane.panel.px(15)}, rgb(0x000000, alpha), number.c_str());
+    pane.list.AddText({at.x + pane.panel.px(8), at.y - pane.panel.px(16)}, rgb(0xFFFFFF, alpha), number.c_str());
+  }
+  ImGui::PopFont();
+}
+
 /// What a click would add, before it is clicked.
 void drawGhost(const Pane& pane) {
   const auto& hover = pane.state().hover;
@@ -290,6 +346,8 @@ Taken photoPane(const Panel& panel, int number, Area area) {
   for (const auto& stem : panel.project.stems) drawStem(pane, stem.stem, stem.stem.id == chosen);
   drawGathered(pane);
   if (panel.state.selection.node) drawSelected(pane, *panel.state.selection.node);
+  if (const ProposedStem* proposed = panel.proposals.in(view.view.name)) drawProposal(pane, *proposed);
+  else drawCandidates(pane);
   drawGhost(pane);
   drawOrigin(pane);
   drawTrouble(pane);

@@ -57,4 +57,9 @@ const ShownPhoto* Photos::find(const std::filesystem::path& file) const {
   return photo == photos_.end() ? nullptr : &photo->second;
 }
 
+std::shared_ptr<const skeleton3d::Photo> Photos::photoOf(const document::OpenProject& open, const document::ProjectView& view) const {
+  const ShownPhoto* shown = view.photo.empty() ? nullptr : find(document::photoPath(open, view));
+  return shown == nullptr || !shown->tiles ? nullptr : shown->tiles->sharedPhoto();
+}
+
 }  // namespace axil::ui

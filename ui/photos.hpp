@@ -29,6 +29,8 @@ class Photos {
   void update(const document::OpenProject& open);
   /// Null while it is being read.
   [[nodiscard]] const ShownPhoto* find(const std::filesystem::path& file) const;
+  /// The pixels of a view's photo, for work in the background; null while it is being read or where there is none.
+  [[nodiscard]] std::shared_ptr<const skeleton3d::Photo> photoOf(const document::OpenProject& open, const document::ProjectView& view) const;
   [[nodiscard]] bool busy() const;
 
  private:

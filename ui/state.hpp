@@ -8,6 +8,7 @@
 #include "document/command.hpp"
 #include "simeco/environment.hpp"
 #include "skeleton3d/camera.hpp"
+#include "skeleton3d/guide_candidates.hpp"
 #include "skeleton3d/live_wire.hpp"
 #include "skeleton3d/snap.hpp"
 #include "ui/clicking.hpp"
@@ -66,6 +67,14 @@ struct PlantDrag {
   [[nodiscard]] glm::dvec2 moved_px(const skeleton3d::Camera& camera) const {
     return skeleton3d::project(camera, at).px - skeleton3d::project(camera, from).px;
   }
+};
+
+/// Ranked places in the other photos for a point of one photo, as they were worked out last.
+struct Candidates {
+  std::string first;
+  PhotoPoint at;
+  std::optional<document::NodeId> before;
+  std::map<std::string, std::vector<skeleton3d::ProposedPlace>> places;  ///< by view, best first
 };
 
 /// Nodes on their way into the selection: a box from corner to corner, or all that a line drawn by hand goes round. In px of the photo.
@@ -206,6 +215,7 @@ struct UiState {
   bool snap = true;                                      ///< clicks go to the centre line of the stem they are near
   std::optional<skeleton3d::RidgeReading> ridge;         ///< under the mouse, this frame
   bool trace = true;                                     ///< a stem is followed from the selected node to the mouse
+  std::optional<Candidates> candidates;                  ///< while the photos are as they were
   std::optional<skeleton3d::WirePath> wire;              ///< the way to the mouse, this frame
   bool loupe = false;
   bool shortcuts = false;

@@ -72,6 +72,7 @@ struct Studio::Inside {
   // Workers last: their threads end first.
   Photos photos;
   Wires wires;
+  Proposals proposals;
   Follower follower;
   DraftGrower draftGrower;
   GhostGrower ghostGrower;
@@ -80,7 +81,7 @@ struct Studio::Inside {
   FileWriter fileWriter;
 
   Inside(StudioOptions given, Texts words)
-      : options(std::move(given)), texts(std::move(words)), session(Session::untitled({.stateFolder = options.stateFolder, .chain = {}})), photos(options.wake), wires(options.wake), follower(followingWork, options.wake),
+      : options(std::move(given)), texts(std::move(words)), session(Session::untitled({.stateFolder = options.stateFolder, .chain = {}})), photos(options.wake), wires(options.wake), proposals(options.wake), follower(followingWork, options.wake),
         draftGrower([] { return [](const DraftQuestion& q) { return grownFrom(q.text, q.seed, q.environment); }; }, options.wake), ghostGrower(ghostWork, options.wake),
         drawer(drawingWork, options.wake), exporter(options.wake), fileWriter(fileWork, options.wake) {
     state.preferences = readPreferences(options.stateFolder);
@@ -123,6 +124,7 @@ struct Studio::Inside {
 
   void changed() {
     ++revision;
+    state.candidates.reset();
     const document::Project& project = session.project();
     fonts.want(project.name);
     fonts.want(project.description);
@@ -281,6 +283,8 @@ struct Studio::Inside {
     }
     photos.update(session.openProject());
     wires.update(session.openProject(), state, photos);
+    const bool isCurrent = following->revision == revision && following->measured.good;
+    proposals.update(session.openProject(), revision, state, isCurrent ? std::optional(Placed{*following->measured.good, following->skeleton.good.get()}) : std::nullopt, photos, wires);
     if (auto picture = drawer.take()) {
       drawingTrouble = picture->trouble;
       if (picture->trouble) fail(*picture->trouble);
@@ -397,7 +401,7 @@ struct Studio::Inside {
       applyLook(palette, state.scale);
     }
     play();
-    const Panel panel{session, session.project(), *following, photos, wires, texts, palette, plantTexture, ghosts, draft, exporting, state};
+    const Panel panel{session, session.project(), *following, photos, wires, proposals, texts, palette, plantTexture, ghosts, draft, exporting, state};
     std::vector<Step> steps;
     if (Taken taken = actOnKeys(panel)) steps.push_back(std::move(*taken));
     for (Step& taken : shell(panel)) steps.push_back(std::move(taken));
@@ -477,7 +481,7 @@ void Studio::frame() {
 
 bool Studio::isBusy() const {
   const Inside& in = *inside_;
-  return in.state.playing || in.follower.busy() || in.asked != in.revision || in.draftGrower.busy() || in.ghostGrower.busy() || in.fileWriter.busy() || in.photos.busy() || in.wires.busy() || in.plantIsBehind() || in.exporting.running;
+  return in.state.playing || in.follower.busy() || in.asked != in.revision || in.draftGrower.busy() || in.ghostGrower.busy() || in.fileWriter.busy() || in.photos.busy() || in.wires.busy() || in.proposals.busy() || in.plantIsBehind() || in.exporting.running;
 }
 
 bool Studio::hasEnded() const { return inside_->ended; }

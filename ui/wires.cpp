@@ -10,14 +10,18 @@ namespace {
 constexpr std::size_t kMostReady = 3;
 /// A way with less is no stem.
 constexpr double kLeastConfidence = 0.3;
+/// How far the line through the nodes may be from the stem, of the photo's longer side: few nodes count more than the last pixel.
+constexpr double kTolerance = 0.0025;
 
 /// Photos made ready, the last used first.
 class Prepare {
  public:
   WireAnswer operator()(const WireQuestion& question) {
-    WireAnswer answer{question, {}};
+    WireAnswer answer{question, {}, {}};
     const skeleton3d::LiveWire* wire = ready(question.photo);
-    if (wire == nullptr || !question.from) return answer;
+    if (wire == nullptr) return answer;
+    answer.ready = *wire;
+    if (!question.from) return answer;
     if (auto start = skeleton3d::startWire(*wire, *question.from)) answer.start = std::move(*start);
     return answer;
   }
@@ -47,11 +51,6 @@ const PhotoPoint* clickOf(const document::Project& project, document::NodeId nod
   return click == clicks.end() ? nullptr : &click->second;
 }
 
-std::shared_ptr<const skeleton3d::Photo> photoOf(const document::OpenProject& open, const document::ProjectView& view, const Photos& photos) {
-  const ShownPhoto* shown = view.photo.empty() ? nullptr : photos.find(document::photoPath(open, view));
-  return shown == nullptr || !shown->tiles ? nullptr : shown->tiles->sharedPhoto();
-}
-
 }  // namespace
 
 std::optional<document::NodeId> wireNode(const document::Project& project, const Selection& selection, const std::string& view) {
@@ -74,32 +73,39 @@ void Wires::ask(WireQuestion question) {
 
 void Wires::update(const document::OpenProject& open, const UiState& state, const Photos& photos) {
   if (auto answer = worker_.take()) {
-    if (!isPreparing(answer->question.photo)) std::erase(ready_, answer->question.photo);
-    ready_.push_back(answer->question.photo);
+    if (const auto known = place(answer->question.photo); known != ready_.end()) ready_.erase(known);
+    ready_.push_back({answer->question.photo, answer->ready});
     if (ready_.size() > kMostReady) ready_.erase(ready_.begin());
     if (answer->start) answer_ = std::move(*answer);
   }
   if (!state.trace || state.way != Way::Stems) return;
   if (state.hover) {
-    const auto place = document::viewNamed(open.project, state.hover->first);
-    const auto node = place ? wireNode(open.project, state.selection, state.hover->first) : std::nullopt;
-    const auto photo = place ? photoOf(open, open.project.views[*place], photos) : nullptr;
+    const auto at = document::viewNamed(open.project, state.hover->first);
+    const auto node = at ? wireNode(open.project, state.selection, state.hover->first) : std::nullopt;
+    const auto photo = at ? photos.photoOf(open, open.project.views[*at]) : nullptr;
     if (photo && node) {
       const PhotoPoint from = *clickOf(open.project, *node, state.hover->first);
       if (!answer_ || answer_->question.photo != photo || answer_->question.from != from) return ask({photo, from});
     }
   }
   for (const document::ProjectView& view : open.project.views)
-    if (const auto photo = photoOf(open, view, photos); photo && isPreparing(photo) && ready_.size() < kMostReady) return ask({photo, {}});
+    if (const auto photo = photos.photoOf(open, view); photo && place(photo) == ready_.end() && ready_.size() < kMostReady) return ask({photo, {}});
 }
 
 std::optional<skeleton3d::WirePath> Wires::way(const std::shared_ptr<const skeleton3d::Photo>& photo, PhotoPoint from, PhotoPoint to) const {
   if (!answer_ || answer_->question.photo != photo || answer_->question.from != from) return std::nullopt;
-  skeleton3d::WirePath path = skeleton3d::wireTo(*answer_->start, to);
+  skeleton3d::WirePath path = skeleton3d::wireTo(*answer_->start, to, {.tolerance_px = std::max(1.5, kTolerance * std::max(photo->width, photo->height))});
   if (path.confidence < kLeastConfidence || path.nodes.size() < 2) return std::nullopt;
   return path;
 }
 
-bool Wires::isPreparing(const std::shared_ptr<const skeleton3d::Photo>& photo) const { return std::find(ready_.begin(), ready_.end(), photo) == ready_.end(); }
+std::vector<Wires::Ready>::const_iterator Wires::place(const std::shared_ptr<const skeleton3d::Photo>& photo) const {
+  return std::find_if(ready_.begin(), ready_.end(), [&](const Ready& ready) { return ready.photo == photo; });
+}
+
+const skeleton3d::LiveWire* Wires::ready(const std::shared_ptr<const skeleton3d::Photo>& photo) const {
+  const auto known = place(photo);
+  return known == ready_.end() || !known->wire ? nullptr : &*known->wire;
+}
 
 }  // namespace axil::ui

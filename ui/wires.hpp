@@ -21,6 +21,7 @@ struct WireQuestion {
 
 struct WireAnswer {
   WireQuestion question;
+  std::optional<skeleton3d::LiveWire> ready;  ///< nothing where the photo is too small to hold a stem
   std::optional<skeleton3d::WireStart> start;
 };
 
@@ -35,14 +36,20 @@ class Wires {
   void update(const document::OpenProject& open, const UiState& state, const Photos& photos);
   /// The way from `from` to `to` along a stem of `photo`; nothing while it is being made ready, or where there is no stem.
   [[nodiscard]] std::optional<skeleton3d::WirePath> way(const std::shared_ptr<const skeleton3d::Photo>& photo, PhotoPoint from, PhotoPoint to) const;
-  /// The photo is not ready yet.
-  [[nodiscard]] bool isPreparing(const std::shared_ptr<const skeleton3d::Photo>& photo) const;
+  /// Null while the photo is being made ready.
+  [[nodiscard]] const skeleton3d::LiveWire* ready(const std::shared_ptr<const skeleton3d::Photo>& photo) const;
   [[nodiscard]] bool busy() const { return worker_.busy(); }
 
  private:
   void ask(WireQuestion question);
 
-  std::vector<std::shared_ptr<const skeleton3d::Photo>> ready_;
+  struct Ready {
+    std::shared_ptr<const skeleton3d::Photo> photo;
+    std::optional<skeleton3d::LiveWire> wire;
+  };
+  [[nodiscard]] std::vector<Ready>::const_iterator place(const std::shared_ptr<const skeleton3d::Photo>& photo) const;
+
+  std::vector<Ready> ready_;
   std::optional<WireAnswer> answer_;
   Worker<WireQuestion, WireAnswer> worker_;
 };

@@ -62,6 +62,15 @@ TEST(Clicking, OnANodeSelectsItUnlessOnlyPlacingIsWanted) {
   EXPECT_EQ(meaningOf(project, {NodeId(1)}, close).kind, ClickKind::Extend);
 }
 
+TEST(Clicking, AStemGoesOnAlongAWayWithANodeAtEachOfItsPlaces) {
+  const Project project = projectOf(std::string(kViews) + "add_node 1 front 0 0 ; add_stem 1 1\nadd_node 2 front 0 50 ; append_node 1 2\nadd_node 3 front 0 99 ; append_node 1 3\n");
+  const std::vector<PhotoPoint> way{{{10, 20}}, {{30, 40}}};
+  const ClickMeaning meaning = meaningAlong(project, {.node = NodeId(2), .others = {}}, {.view = "front", .at = way.back(), .reach_px = 8, .picking = Picking::OnlyPlace}, way);
+  EXPECT_EQ(meaning.kind, ClickKind::Branch);
+  EXPECT_EQ(printed(meaning), "add_node 4 front 10 20 ; start_branch 2 2 ; append_node 2 4 ; add_node 5 front 30 40 ; append_node 2 5");
+  EXPECT_EQ(meaning.after.node, NodeId(5));
+}
+
 TEST(Clicking, WhatItMeansCanAlwaysBeDone) {
   Project project = projectOf(kViews);
   Selection selection;

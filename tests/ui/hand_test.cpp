@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 
 namespace axil::ui {
 namespace {
@@ -116,6 +117,27 @@ TEST(Hand, ANodeDraggedInSpaceMovesItsClicksInEveryPhotoAsOneStep) {
   EXPECT_LT(std::abs(clickOf(headless, node, "right").px.x - right.px.x), 30);
   run(headless, "ui key ctrl+z\n");
   EXPECT_EQ(clickOf(headless, node, "front").px, front.px);
+}
+
+TEST(Hand, AStemIsFollowedToTheMouseAndTakenInTheOtherPhotosWithOneKey) {
+  HeadlessStudio headless = opened();
+  const auto project = [&] { return headless.studio().session().project(); };
+  const auto clicksOf = [&](document::NodeId node) { return project().nodes[document::nodeWithId(project(), node).value()].node.clicks; };
+  // Stem 2 of the sample is taken away and traced again: its branch point, its tip in the front photo, Enter.
+  const auto tip = clicksOf(project().stems[document::stemWithId(project(), document::StemId(2)).value()].stem.nodes.back());
+  const std::string at = std::to_string(tip.at("front").px.x) + " " + std::to_string(tip.at("front").px.y);
+  run(headless, "ui wait\nremove_stem 2\nui way stems\nui press stem_1\nui click front 415.5 556.8\nui wait\nui move front " + at + "\nui wait\nui click front " + at + "\nui wait\n");
+  const auto stem = project().stems.back().stem.nodes;
+  EXPECT_GT(stem.size(), 2u) << "the branch is bent";
+  EXPECT_LE(stem.size(), 14u);
+  const std::size_t steps = headless.studio().session().history().entries().size();
+  run(headless, "ui key enter\nui wait\n");
+  EXPECT_EQ(headless.studio().session().history().entries().size(), steps + 1);
+  const auto clicks = clicksOf(stem.back());
+  ASSERT_GE(clicks.size(), 2u);
+  for (const auto& [view, click] : clicks) EXPECT_LT(glm::distance(click.px, tip.at(view).px), 40) << view;
+  run(headless, "ui key ctrl+z\nui wait\n");
+  EXPECT_EQ(clicksOf(stem.back()).size(), 1u);
 }
 
 TEST(Hand, ThePaletteDoesWhatItsNameSays) {

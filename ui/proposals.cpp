@@ -1,0 +1,202 @@
+#include "ui/proposals.hpp"
+
+#include "document/lookup.hpp"
+
+#include <algorithm>
+
+namespace axil::ui {
+namespace {
+
+using document::NodeId;
+using document::Project;
+
+/// A way that is less sure than this is no proposal.
+constexpr double kLeastConfidence = 0.25;
+constexpr double kLineStep_px = 4;
+/// A way that runs this close to clicked stems for more than this share of it is one of them.
+constexpr double kTaken_px = 5, kTakenShare = 0.5;
+/// Tips of two photos' proposals are one place when they are no further apart than this share of the plant's reach.
+constexpr double kApartOfReach = 0.06;
+
+const std::map<std::string, PhotoPoint>& clicksOf(const Project& project, NodeId node) {
+  static const std::map<std::string, PhotoPoint> none;
+  const auto place = document::nodeWithId(project, node);
+  return place ? project.nodes[*place].node.clicks : none;
+}
+
+/// The nodes of the tip's stem from the last that is clicked in `view` up to the tip; empty where there is no such node before it.
+std::vector<NodeId> openEnd(const Project& project, NodeId tip, const std::string& view) {
+  const auto stem = document::stemThrough(project, tip);
+  if (!stem || clicksOf(project, tip).contains(view)) return {};
+  const auto& nodes = project.stems[*stem].stem.nodes;
+  const auto end = std::find(nodes.begin(), nodes.end(), tip);
+  for (auto from = end; from != nodes.begin();)
+    if (clicksOf(project, *--from).contains(view)) return {from, end + 1};
+  return {};
+}
+
+/// The view other than `view`, of known camera, in which all these nodes are clicked.
+const skeleton3d::View* commonView(const Project& project, const Placed& placed, const std::vector<NodeId>& nodes, const std::string& view) {
+  for (const document::ProjectView& candidate : project.views) {
+    const std::string& name = candidate.view.name;
+    if (name == view) continue;
+    const bool inAll = std::all_of(nodes.begin(), nodes.end(), [&](NodeId node) { return clicksOf(project, node).contains(name); });
+    if (const skeleton3d::View* known = inAll ? placed.view(name) : nullptr) return known;
+  }
+  return nullptr;
+}
+
+/// The way through the clicks of the first view.
+skeleton3d::WirePath pathThrough(const std::vector<std::pair<NodeId, PhotoPoint>>& nodes) {
+  skeleton3d::WirePath path;
+  path.confidence = 1;
+  for (const auto& [node, at] : nodes) path.nodes.push_back({at, 0, 1});
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const glm::dvec2 from = nodes[i].second.px, along = nodes[i + 1].second.px - from;
+    const int steps = std::max(1, static_cast<int>(glm::length(along) / kLineStep_px));
+    for (int k = 0; k < steps; ++k) path.line.push_back({{from + along * (static_cast<double>(k) / steps)}, 0, 1});
+  }
+  path.line.push_back(path.nodes.back());
+  return path;
+}
+
+/// The place of the way, not before `from`, that is `click` in the first view: a way that crosses itself is followed in order.
+std::size_t placeOf(const std::vector<skeleton3d::StemPlace>& line, std::size_t from, PhotoPoint click) {
+  const auto nearest = std::min_element(line.begin() + static_cast<std::ptrdiff_t>(from), line.end(), [&](const auto& a, const auto& b) {
+    return glm::distance(a.inFirst.px, click.px) < glm::distance(b.inFirst.px, click.px);
+  });
+  return static_cast<std::size_t>(nearest - line.begin());
+}
+
+double distanceTo(PhotoPoint p, const std::pair<PhotoPoint, PhotoPoint>& segment) {
+  const glm::dvec2 along = segment.second.px - segment.first.px, to = p.px - segment.first.px;
+  const double length2 = glm::dot(along, along);
+  return glm::length(to - along * (length2 > 0 ? std::clamp(glm::dot(to, along) / length2, 0.0, 1.0) : 0.0));
+}
+
+bool isTaken(const std::vector<PhotoPoint>& line, const std::vector<std::pair<PhotoPoint, PhotoPoint>>& taken) {
+  const auto near = std::count_if(line.begin(), line.end(), [&](PhotoPoint p) { return std::any_of(taken.begin(), taken.end(), [&](const auto& s) { return distanceTo(p, s) < kTaken_px; }); });
+  return static_cast<double>(near) > kTakenShare * static_cast<double>(line.size());
+}
+
+/// The segments of all stems in the view.
+std::vector<std::pair<PhotoPoint, PhotoPoint>> segmentsIn(const Project& project, const std::string& view) {
+  std::vector<std::pair<PhotoPoint, PhotoPoint>> segments;
+  for (const document::ProjectStem& entry : project.stems)
+    for (std::size_t i = 1; i < entry.stem.nodes.size(); ++i) {
+      const auto &a = clicksOf(project, entry.stem.nodes[i - 1]), &b = clicksOf(project, entry.stem.nodes[i]);
+      if (a.contains(view) && b.contains(view)) segments.emplace_back(a.at(view), b.at(view));
+    }
+  return segments;
+}
+
+}  // namespace
+
+const skeleton3d::View* Placed::view(const std::string& name) const {
+  for (const skeleton3d::View& known : measured.views)
+    if (known.name == name && known.camera.model != skeleton3d::CameraModel::Unknown) return &known;
+  return nullptr;
+}
+
+const skeleton3d::Node* Placed::node(NodeId id) const {
+  if (skeleton == nullptr) return nullptr;
+  const auto found = std::find_if(skeleton->nodes.begin(), skeleton->nodes.end(), [&](const skeleton3d::Node& node) { return node.id == id; });
+  return found == skeleton->nodes.end() ? nullptr : &*found;
+}
+
+skeleton3d::Reach Placed::reach() const {
+  std::vector<PlantPoint> places;
+  if (skeleton != nullptr)
+    for (const skeleton3d::Node& node : skeleton->nodes) places.push_back(node.position);
+  return skeleton3d::reachOf(places, 1);
+}
+
+std::optional<StemQuestion> stemQuestion(const Project& project, const Placed& placed, NodeId tip, const std::string& view, const skeleton3d::LiveWire& otherPhoto) {
+  const std::vector<NodeId> nodes = openEnd(project, tip, view);
+  const skeleton3d::View* other = placed.view(view);
+  const skeleton3d::View* first = nodes.size() < 2 || other == nullptr ? nullptr : commonView(project, placed, nodes, view);
+  if (first == nullptr) return std::nullopt;
+  StemQuestion question{*first, *other, {}, otherPhoto, placed.reach(), {}, segmentsIn(project, view)};
+  for (const NodeId node : nodes) question.nodes.emplace_back(node, clicksOf(project, node).at(first->name));
+  question.options.startInOther = clicksOf(project, nodes.front()).at(view);
+  if (const skeleton3d::Node* base = placed.node(nodes.front())) question.options.base = base->position;
+  return question;
+}
+
+std::optional<ProposedStem> proposedStem(const StemQuestion& question) {
+  const auto between = skeleton3d::tracedInOtherView(question.first, pathThrough(question.nodes), question.other, question.otherPhoto, question.reach, question.options);
+  if (!between || between->line.empty() || between->confidence < kLeastConfidence) return std::nullopt;
+  ProposedStem proposed{question.other.name, {}, {}, between->line.back().at, between->confidence};
+  std::size_t place = 0;
+  for (std::size_t i = 1; i < question.nodes.size(); ++i) {
+    place = placeOf(between->line, place, question.nodes[i].second);
+    proposed.clicks.emplace_back(question.nodes[i].first, between->line[place].inOther);
+  }
+  if (question.options.endInOther) proposed.clicks.back().second = *question.options.endInOther;
+  for (const skeleton3d::StemPlace& along : between->line) proposed.line.push_back(along.inOther);
+  if (isTaken(proposed.line, question.taken) && !question.options.endInOther) return std::nullopt;
+  return proposed;
+}
+
+std::vector<ProposedStem> agreeing(std::span<const StemQuestion> questions) {
+  std::vector<ProposedStem> stems;
+  for (const StemQuestion& question : questions)
+    if (auto proposed = proposedStem(question)) stems.push_back(std::move(*proposed));
+  std::stable_sort(stems.begin(), stems.end(), [](const ProposedStem& a, const ProposedStem& b) { return a.confidence > b.confidence; });
+  if (stems.empty()) return stems;
+  const double apart = kApartOfReach * questions.front().reach.radius;
+  const PlantPoint tip = stems.front().tip;
+  std::erase_if(stems, [&](const ProposedStem& stem) { return glm::distance(stem.tip.at, tip.at) > apart; });
+  return stems;
+}
+
+document::Step stepOf(const ProposedStem& proposed) {
+  document::Step step;
+  for (const auto& [node, at] : proposed.clicks) step.emplace_back(document::AddClick{node, proposed.view, at});
+  return step;
+}
+
+std::vector<skeleton3d::ProposedPlace> placesFor(const Placed& placed, const std::string& first, PhotoPoint click, const std::string& view, const skeleton3d::LiveWire& otherPhoto,
+                                                 std::optional<NodeId> before) {
+  const skeleton3d::View *here = placed.view(first), *there = placed.view(view);
+  if (here == nullptr || there == nullptr) return {};
+  skeleton3d::GuideExpectation expected;
+  if (const skeleton3d::Node* known = before ? placed.node(*before) : nullptr) expected.before = known->position;
+  auto places = skeleton3d::proposedPlaces(*here, click, *there, otherPhoto, placed.reach(), expected);
+  return places ? std::move(*places) : std::vector<skeleton3d::ProposedPlace>{};
+}
+
+Proposals::Proposals(std::function<void()> answered)
+    : worker_([] { return [](const std::vector<StemQuestion>& questions) { return agreeing(questions); }; }, std::move(answered)) {}
+
+void Proposals::update(const document::OpenProject& open, std::uint64_t revision, const UiState& state, const std::optional<Placed>& placed, const Photos& photos, const Wires& wires) {
+  if (auto answer = worker_.take()) stems_ = std::move(*answer);
+  const bool isOn = state.trace && state.way == Way::Stems && state.selection.node && placed;
+  if (asked_ != std::pair(revision, state.selection.node)) {
+    stems_.clear();
+    askedViews_.clear();
+    asked_ = {revision, state.selection.node};
+  }
+  if (!isOn || worker_.working()) return;
+  std::vector<StemQuestion> questions;
+  std::vector<std::string> views;
+  for (const document::ProjectView& view : open.project.views) {
+    const auto photo = photos.photoOf(open, view);
+    const skeleton3d::LiveWire* wire = photo ? wires.ready(photo) : nullptr;
+    if (wire == nullptr) continue;
+    if (auto stem = stemQuestion(open.project, *placed, *state.selection.node, view.view.name, *wire)) {
+      questions.push_back(std::move(*stem));
+      views.push_back(view.view.name);
+    }
+  }
+  if (views == askedViews_) return;  // a photo that was made ready since asks anew
+  askedViews_ = std::move(views);
+  worker_.ask(std::move(questions));
+}
+
+const ProposedStem* Proposals::in(const std::string& view) const {
+  const auto found = std::find_if(stems_.begin(), stems_.end(), [&](const ProposedStem& stem) { return stem.view == view; });
+  return found == stems_.end() ? nullptr : &*found;
+}
+
+}  // namespace axil::ui
