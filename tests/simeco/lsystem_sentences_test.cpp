@@ -80,7 +80,7 @@ TEST(LSystemSentences, EachModelDerivesItsString) {
     ASSERT_TRUE(image) << image.error().message;
     EXPECT_EQ(test::difference(toLSystemText(image->string), sentence.image, rounding), "");
   }
-  EXPECT_GE(models, 130u);
+  EXPECT_GE(models, 210u);
 }
 
 TEST(LSystemSentences, EachModelPrintsAsATextThatDerivesTheSame) {
