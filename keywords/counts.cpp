@@ -30,7 +30,7 @@ constexpr CountedWord countedWords[] = {
     {"loculed", "ovary", "locule", ""}, {"celled", "ovary", "locule", ""}, {"loculate", "ovary", "locule", ""}, {"valved", "fruit", "valve", ""},
     {"foliolate", "leaflet", "", ""}, {"foliate", "leaflet", "", ""},      {"petaled", "petal", "", ""},    {"petalled", "petal", "", ""},
     {"leaved", "leaf", "", ""},       {"rayed", "ray floret", "", ""},     {"paired", "", "", "pairs"},     {"jugate", "", "", "pairs"},
-    {"jug", "", "", "pairs"},
+    {"jug", "", "", "pairs"},         {"winged", "", "wing", ""},
 };
 
 }  // namespace
@@ -78,6 +78,11 @@ std::size_t ParagraphReader::readLeavesPerNode(std::size_t i, const NumberRange&
   const bool perNodeHan = i >= 2 && is(i - 2, "每") && isAny(i - 1, {"節", "节", "輪", "轮", "束"});
   const bool others = scope_.organ != nullptr && scope_.organInSentence && isOneOf(scope_.organ->name, {"flower", "branch", "bract", "inflorescence", "fruit", "thorn", "leaflet", "tepal"});
   const std::string organ = others ? scope_.organ->name : std::string("leaf");
+  const std::size_t counted = isAny(range.end, {"朵", "個", "个", "枚"}) ? range.end + 1 : range.end;
+  if (perNodeHan && nounAt(counted) != nullptr && nounAt(counted)->name == "flower") {  // 每輪6-10花
+    addCount(i, found_[counted].end, "flower", "", range, "per inflorescence");
+    return found_[counted].end;
+  }
   if (ofWhorls || ofInWhorls || perNodeHan) {
     addCount(ofInWhorls ? i - 3 : i - 2, range.end, organ, "", range, "per node");
     return range.end;
@@ -142,6 +147,7 @@ ParagraphReader::Measure ParagraphReader::measureAt(std::size_t i) const {
     return {end, "pairs"};
   }
   if (is(i, "on") && isAny(i + 1, {"each", "either"}) && is(i + 2, "side")) return {i + 3, "per side"};
+  if (is(i, "per") && is(i + 1, "side")) return {i + 2, "per side"};
   if (isAny(i, {"per", "in"}) && (isAny(i + 1, {"locule", "cell"}) || (is(i + 1, "each") && isAny(i + 2, {"locule", "cell"})))) return {is(i + 1, "each") ? i + 3 : i + 2, "per locule"};
   if (isAny(i, {"枚", "片", "個", "个", "朵", "條", "条", "根", "瓣", "粒", "顆", "颗"})) return {i + 1, ""};
   return {i, ""};
@@ -155,6 +161,7 @@ ParagraphReader::Counted ParagraphReader::countedBy(std::size_t i) const {
   if (isAny(i, {"瓣"}) && isAny(i + 1, {"裂", "開", "开"})) return {"fruit", "valve", "", i + 2};
   if (isAny(i, {"裂"})) return {"", "lobe", "", i + 1};
   if (isAny(i, {"淺", "浅", "深", "中", "全"}) && is(i + 1, "裂")) return {"", "lobe", "", i + 2};
+  if (isAny(i, {"淺", "浅", "粗", "細", "细"}) && isAny(i + 1, {"齒", "齿"}) && is(i + 2, "裂")) return {"", "tooth", "", i + 3};
   if (isAny(i, {"室"})) return {"ovary", "locule", "", i + 1};
   if (isAny(i, {"齒", "齿"}) && !isAny(i + 1, {"狀", "状"})) return {"", "tooth", "", i + 1};
   if (isAny(i, {"脈", "脉"})) return {"vein", "", "", i + 1};
@@ -213,7 +220,7 @@ void ParagraphReader::addLobedShape(std::size_t i, std::size_t end, const Number
 }
 
 bool ParagraphReader::isWordWithNumber(std::size_t i) const {
-  return (is(i, "-") && i + 1 < tokens_.size() && tokens_[i + 1].kind == TokenKind::Word) || isAny(i, {"*", "/", "%", "°", "裂", "出", "脈", "脉", "times", "倍", "回", "月", "年", "數", "数", "x", "層", "层", "列", "輪", "轮", "系", "series", "rows", "ranks", "tiers", "layers", "cycles", "型", "叉"}) ||
+  return (is(i, "-") && i + 1 < tokens_.size() && tokens_[i + 1].kind == TokenKind::Word) || isAny(i, {"*", "/", "%", "°", "裂", "出", "脈", "脉", "times", "倍", "回", "月", "年", "數", "数", "x", "層", "层", "列", "輪", "轮", "系", "series", "rows", "ranks", "tiers", "layers", "cycles", "型", "叉", "側", "侧", "面", "端", "邊", "边", "旁", "行", "圈"}) ||
          (i < found_.size() && found_[i].conceptAs("dimension") != nullptr && !isHan(i));
 }
 
@@ -233,7 +240,7 @@ std::size_t ParagraphReader::beforeEach(std::size_t i) const {
   for (std::size_t back = 2; back <= 5 && back <= i; ++back) {
     if (!is(i - back, "每")) continue;
     const Found& f = found_[i - back + 1];
-    return f && f.end == i ? i - back : i;
+    return (f && f.end == i) || (back == 2 && isAny(i - 1, {"邊", "边", "側", "侧"})) ? i - back : i;
   }
   return i;
 }
@@ -278,6 +285,15 @@ std::size_t ParagraphReader::readNumerous(std::size_t i) {
   const Concept* noun = scope_.piece != nullptr && scope_.piece->name != "blade" ? scope_.piece : scope_.organ;
   const bool behind = scope_.organInSentence && noun != nullptr && beforeCount(i) == scope_.organEnd && scope_.place == nullptr;
   const Concept* ahead = nounAt(end);
+  std::size_t at = end;
+  while (han && at < end + 6 && at < tokens_.size() && (isAny(at, {"的", "之", "密", "疏", "生"}) || (hasTraitMeaning(at) && nounAt(at) == nullptr))) at = std::max(at + 1, found_[at].end);
+  const Concept* given = han && i > 0 && isAny(i - 1, {"具", "有", "含"}) ? nounAt(at) : nullptr;  // 具多數密生的花
+  if (given != nullptr && isCountable(*given) && given->columns.at("role") == "organ" && scope_.organInSentence) {
+    Trait trait = traitAt(i, end, given->name, "count");
+    trait.value = "numerous";
+    keep(std::move(trait), true);
+    return end;
+  }
   const bool before = !behind && !han && is(i, "numerous") && ahead != nullptr && !found_[end].as("organ")->everyday && ahead->columns.at("role") == "organ";
   const bool stops = end >= tokens_.size() || tokens_[end].kind == TokenKind::Sign || isAny(end, {"and", "in", "per", "on"}) || hasTraitMeaning(end) || isHan(end);
   if (before) noun = ahead;
@@ -331,7 +347,11 @@ std::size_t ParagraphReader::readCountOfOrganBefore(std::size_t i, const NumberR
   // "Flowers solitary or 2-3 together", 花單生或2-3朵簇生.
   const std::size_t before = beforeCount(i);
   const bool orSolitary = last_.kept && last_.end != 0 && before == last_.end + 1 && isAny(last_.end, {"or", "或", "to", "至"}) && !result_.traits.empty() && result_.traits.back().value == "solitary";
-  if (!isCountable(noun) || (before != scope_.organEnd && !orSolitary)) return 0;
+  // 徑1公分，2-4個腋生; 常3-5朵簇生枝端: how many stand together.
+  const Measure counter = measureAt(range.end);
+  const bool together = isHan(range.end) && counter.end > range.end && scope_.subjectInClause && before > 0 && tokens_[before - 1].kind == TokenKind::Sign &&
+                        ((counter.end < tokens_.size() && found_[counter.end] && (found_[counter.end].as("arrangement") || found_[counter.end].as("position"))) || isAny(counter.end, {"着", "著", "生", "聚"}));
+  if (!isCountable(noun) || (before != scope_.organEnd && !orSolitary && !together)) return 0;
   if (scope_.place != nullptr) return 0;
   const Measure measure = measureAt(range.end);
   const Concept* next = nounAt(measure.end);
@@ -353,6 +373,8 @@ std::size_t ParagraphReader::readCountOfOrganAfter(std::size_t i, const NumberRa
   const auto isAdjective = [&](std::size_t k) { return k < tokens_.size() && hasTraitMeaning(k) && nounAt(k) == nullptr && (!isHan(k) || isAny(found_[k].end, {"的", "之"})); };
   while (isAdjective(at) && at < measure.end + 3) at = found_[at].end;  // "5 white petals"
   if (at > measure.end && isAny(at, {"的", "之"})) ++at;
+  const bool with = i > 0 && isAny(i - 1, {"with", "having", "bearing"});
+  for (int unknown = 0; with && unknown < 2 && at < tokens_.size() && tokens_[at].kind == TokenKind::Word && !found_[at] && !isFiller(tokens_[at].text); ++unknown) ++at;  // "7-13 prominent parallel veins"
   const Concept* noun = nounAt(at);
   if (noun == nullptr || isAny(i, {"one", "一"})) return 0;
   const std::string& role = noun->columns.at("role");
@@ -373,8 +395,10 @@ std::size_t ParagraphReader::readCountOfOrganAfter(std::size_t i, const NumberRa
   if (!isCountable(*noun) || (found_[at].as("organ")->everyday && !introduced && noun->name != "flower" && role == "organ" && noun->name != "leaf")) return 0;
   if (noun->name == "leaf" && measure.end == range.end && range.low == range.high && !scope_.organInSentence) return 0;  // "2 leaves" in any prose
   const std::string organ = role == "sub" ? ownerOf(*noun, at)->name : noun->name;
-  const bool pairsBehind = isAny(found_[at].end, {"pairs", "pair"});  // "10 or more pinna pairs"
-  addCount(i, pairsBehind ? found_[at].end + 1 : found_[at].end, organ, role == "sub" ? noun->name : "", range, pairsBehind ? "pairs" : measure.unit);
+  const std::size_t nounEnd = found_[at].end;
+  const bool pairsBehind = isAny(nounEnd, {"pairs", "pair"});                             // "10 or more pinna pairs"
+  const bool sideBehind = (is(nounEnd, "per") && is(nounEnd + 1, "side")) || (is(nounEnd, "on") && isAny(nounEnd + 1, {"each", "either"}) && is(nounEnd + 2, "side"));
+  addCount(i, pairsBehind ? nounEnd + 1 : nounEnd, organ, role == "sub" ? noun->name : "", range, pairsBehind ? "pairs" : sideBehind ? "per side" : measure.unit);
   return measure.end == at ? at : range.end;  // the adjectives and the organ are read next
 }
 

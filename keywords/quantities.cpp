@@ -363,9 +363,9 @@ Lead leadBefore(const Tokens& tokens, const std::vector<Found>& found, std::size
     const auto isBefore = [&](std::size_t back, Words words) { return at > back && isOneOf(tokens[at - 1 - back].text, words); };
     const bool notReaching = isOneOf(before, {"及", "到", "足", "逾"}) && isBefore(1, {"不", "未"});
     const bool notBeyond = isOneOf(before, {"過", "过"}) && isBefore(1, {"超"}) && isBefore(2, {"不"});
-    if (notReaching || notBeyond) {
+    if (notReaching || notBeyond || (isOneOf(before, {"過", "过"}) && isBefore(1, {"不"}))) {
       lead.qualifier = "up to";
-      lead.first = at -= notReaching ? 2 : 3;
+      lead.first = at -= notBeyond ? 3 : 2;
       continue;
     }
     if (isOneOf(before, {"過", "过"}) && isBefore(1, {"超"})) {

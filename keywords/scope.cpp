@@ -37,6 +37,7 @@ bool ParagraphReader::isFlowerSpokenOf() const {
 
 // 分枝橢圓形: branches, and not that something is branched, where the words open a clause that goes on about them.
 bool ParagraphReader::isBranchNoun(std::size_t i) const {
+  if (i > 0 && is(i - 1, "每")) return true;
   const bool opens = i == 0 || tokens_[i - 1].kind == TokenKind::Sign || startsALine(i);
   const std::size_t next = i + 2;
   const bool goesOn = next < tokens_.size() && tokens_[next].kind != TokenKind::Sign && !isAny(next, {"多", "少", "繁", "稀", "密", "疏", "甚", "極", "极", "較", "较", "性", "生", "於", "于", "或", "成"});
@@ -60,6 +61,7 @@ const Concept* ParagraphReader::nounAt(std::size_t i, std::string_view role) con
   const Concept* noun = found_[i].conceptAs("organ");
   if (noun == nullptr || (!role.empty() && roleOf(*noun) != role) || isSwitchedOff(i)) return nullptr;
   const std::size_t end = found_[i].end;
+  if (isHan(i) && isAny(end, {"狀", "状"}) && roleOf(*noun) == "organ") return nullptr;  // 花瓣狀
   const bool likeness = is(end, "like") || (is(end, "-") && isAny(end + 1, {"like", "shaped"}));  // "grass-like leaves"
   if (likeness || (isAny(i, {"standard", "keel", "lip"}) && end == i + 1 && !isFlowerSpokenOf())) return nullptr;
   // 花 in 花費, 葉 in a name: one character of a longer word that the vocabulary does not know.
@@ -78,6 +80,11 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
                                       "current", "previous", "year", "second", "adult", "subtending", "ultimate", "leafy", "terminal", "main", "mature", "same", "opposite"}))
     --before;
   if (isHan(i) && isAny(before, {"每", "各"})) return scope_.organInSentence;
+  const bool tipOf = isHan(i) && last_.end == i && last_.kept && isAny(found_[i].end, {"端", "頂", "顶", "梢"});  // 單生莖端
+  if (tipOf) return scope_.organInSentence;
+  std::size_t behindTerms = before;  // "on a pendulous stalk"
+  while (behindTerms > 0 && !isHan(i) && (isAny(behindTerms, {"a", "the"}) || (hasTraitMeaning(behindTerms) && nounAt(behindTerms) == nullptr))) --behindTerms;
+  if (isAny(behindTerms, {"on", "at", "from", "near"})) before = behindTerms;
   for (std::size_t back = 1; isHan(i) && back <= 3 && back <= i; ++back) {  // 在短枝上, 於長枝
     if (tokens_[i - back].kind != TokenKind::Han) break;
     if (isAny(i - back, {"在", "於", "于"})) return scope_.organInSentence;
@@ -186,6 +193,14 @@ void ParagraphReader::noteNoun(std::size_t i) {
   if (role == "region") return notePlace(i, *noun);
   if (role == "sub") return notePiece(i, *noun);
   if (role == "blade") {
+    // The lamina of a ray floret is a piece of it.
+    if (isAny(i, {"lamina", "laminae", "blade", "blades"}) && scope_.organ != nullptr && scope_.organInSentence && isOneOf(scope_.organ->name, {"ray floret", "petal", "lip", "standard"}) && scope_.subjectInClause) {
+      scope_.piece = noun;
+      scope_.place = nullptr;
+      scope_.organEnd = found_[i].end;
+      scope_.subjectInSegment = true;
+      return;
+    }
     const std::string which = whichBefore(i);
     noteOrgan(i, organNamed("leaf"));
     if (scope_.organEnd == found_[i].end) {
@@ -207,11 +222,14 @@ void ParagraphReader::noteOrgan(std::size_t i, const Concept& organ) {
   // A plant or a twig bears what follows ("a shrub with opposite, ovate leaves"); it is not what the adjectives are about.
   const bool isSubject = !bears(organ) || isRightBehindOrgan(i);
   plantInSentence_ = plantInSentence_ || organ.name == "plant";
-  const bool counted = i > 0 && (tokens_[i - 1].kind == TokenKind::Number || isAny(i - 1, {"朵", "個", "个"}));
+  const bool counted = i > 0 && (tokens_[i - 1].kind == TokenKind::Number || isAny(i - 1, {"朵", "個", "个", "含", "具", "有"}));
   const bool inInflorescence = scope_.organ != nullptr && isOneOf(scope_.organ->name, {"inflorescence", "spikelet"}) && scope_.subjectInClause;
   const Concept* container = organ.name == "flower" && inInflorescence && counted ? scope_.organ : nullptr;
   const bool madeOf = organ.name == "inflorescence" && i > 0 && isAny(i - 1, {"成", "為", "为", "呈"}) && scope_.organ != nullptr && scope_.organ->name == "flower" && scope_.subjectInClause;
-  const Concept* member = madeOf ? scope_.organ : nullptr;
+  std::size_t in = i;  // "flowers 20 in a tight head, 5 mm across"
+  while (in > 0 && in + 4 > i && tokens_[in - 1].kind == TokenKind::Word && !is(in - 1, "in")) --in;
+  const bool gathered = organ.name == "inflorescence" && in > 0 && is(in - 1, "in") && scope_.organ != nullptr && scope_.organ->name == "flower" && scope_.subjectInClause;
+  const Concept* member = madeOf || gathered ? scope_.organ : nullptr;
   scope_ = {&organ, partner, nullptr, nullptr, whichBefore(i), found_[i].end, true, isSubject, true, false, container, member};
   organFrom_.emplace_back(i, organ.name);
 }
@@ -226,6 +244,9 @@ void ParagraphReader::notePiece(std::size_t i, const Concept& piece) {
   scope_.piece = &piece;
   scope_.place = scope_.partner = nullptr;
   scope_.organEnd = found_[i].end;
+  // 蒴果具三翅，長2公分: behind the comma the fruit is measured.
+  const bool given = i > 0 && (tokens_[i - 1].kind == TokenKind::Number || numberAt(tokens_, i - 1)) && isHan(i);
+  scope_.container = given ? owner : nullptr;
   scope_.organInSentence = scope_.subjectInClause = scope_.subjectInSegment = true;
   scope_.commaSincePlace = false;
   organFrom_.emplace_back(i, owner->name);
@@ -241,7 +262,7 @@ void ParagraphReader::notePlace(std::size_t i, const Concept& place) {
     evidence_ += 1;
     organSeen_ = organSeen_ || isHan(i);
   }
-  if (scope_.organ == nullptr || isOneOf(scope_.organ->name, {"plant", "petiole", "vein", "stipule"})) {
+  if (scope_.organ == nullptr || (isOneOf(scope_.organ->name, {"plant", "petiole", "vein", "stipule"}) && !(place.name == "surface" && scope_.organEnd == i))) {
     scope_.organ = &organNamed("leaf");
     scope_.piece = nullptr;
   }

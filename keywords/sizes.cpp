@@ -8,6 +8,7 @@ namespace axil::keywords {
 bool ParagraphReader::isAltitude(std::size_t i) const {
   for (std::size_t back = 1; back <= 7 && back <= i; ++back) {
     if (isAny(i - back, {"elevation", "elevations", "altitude", "altitudes", "alt", "elev", "拔", "depth", "depths", "apart", "distance"})) return true;
+    if (isAny(i - back, {"距"}) && i > back && isAny(i - back - 1, {"間", "间", "株", "行"})) return true;
     if (isAny(i - back, {";", "。", "；"}) || nounAt(i - back) != nullptr) return false;
   }
   return false;
@@ -16,6 +17,8 @@ bool ParagraphReader::isAltitude(std::size_t i) const {
 std::size_t ParagraphReader::readSizes(std::size_t i) {
   const std::vector<Size> sizes = sizesAt(tokens_, found_, i);
   if (sizes.empty()) return 0;
+  // "4 5 cm": the sign between them was lost, so neither number can be trusted.
+  if (i > 0 && tokens_[i - 1].kind == TokenKind::Number && tokens_[i].kind == TokenKind::Number) return sizes.front().end;
   const std::size_t end = sizes.front().end;
   const bool ofPlace = scope_.place != nullptr && scope_.place->name != "surface" && !scope_.commaSincePlace;
   const bool elsewhere = isAltitude(i) || isAny(end, {"a", "above", "asl", "apart", "below", "deep", "from", "away"});
@@ -23,7 +26,8 @@ std::size_t ParagraphReader::readSizes(std::size_t i) {
   const Concept* subject = attributive != nullptr && attributive != scope_.organ && !scope_.subjectInClause ? attributive : scope_.organ;
   const Concept* organ = measuredOrgan(sizes.front(), subject);
   if (!(scope_.organInSentence || subject == attributive) || organ == nullptr || ofPlace || elsewhere) return end;
-  const Concept* piece = organ == scope_.organ ? scope_.piece : nullptr;
+  const bool ofWhole = scope_.container == organ && !scope_.subjectInSegment && !isRightBehindOrgan(sizes.front().first);
+  const Concept* piece = organ == scope_.organ && !ofWhole ? scope_.piece : nullptr;
   const std::string& bare = piece != nullptr ? piece->columns.at("size") : organ->columns.at("size");
   const bool goesOn = sizeEnd_ != 0 && sizes.front().first == sizeEnd_ + 1 && is(sizeEnd_, "and");  // "up to 20 cm long and 3 mm wide"
   for (Size size : sizes) {
@@ -65,7 +69,8 @@ const Concept* ParagraphReader::measuredOrgan(const Size& size, const Concept* s
   if (subject->name == "branch" && size.dimension == "height" && beside) return &organNamed(namedAt_.contains(&organNamed("stem")) ? "stem" : "plant");
   if (isOneOf(subject->name, {"trunk", "bark"}) && size.dimension == "height" && plantInSentence_ && beside) return &organNamed("plant");
   const bool afterComma = beside && !scope_.subjectInSegment;
-  if (scope_.container != nullptr && afterComma && (size.dimension.empty() || size.dimension == "length")) return scope_.container;
+  const bool ofPiece = scope_.container == subject;
+  if (scope_.container != nullptr && !ofPiece && afterComma && (size.dimension.empty() || size.dimension == "length")) return scope_.container;
   if (scope_.member != nullptr && afterComma && size.dimension == "diameter") return scope_.member;
   return subject;
 }

@@ -97,7 +97,7 @@ const Meaning* ParagraphReader::meaningFor(const Found& f, const Concept* organ,
     if (!fits && other == nullptr) other = &m;
   }
   if (whole != nullptr) return whole;
-  if (own != nullptr && (loose == nullptr || !isRightBehindOrgan(f.first))) return own;
+  if (own != nullptr && (loose == nullptr || !(scope_.subjectInClause || isRightBehindOrgan(f.first)))) return own;
   return loose != nullptr ? loose : other;
 }
 
@@ -128,7 +128,7 @@ bool ParagraphReader::continuesCompound(std::size_t i, const Category& category)
   if (!last_.kept || last_.category != &category || result_.traits.empty()) return false;
   if (category.property == "colour") return last_.end == i || (last_.end + 1 == i && is(i - 1, "-"));
   if (!isOneOf(category.property, {"shape", "margin"})) return false;
-  if (isHan(i)) return category.property == "shape" && last_.end == i && isAny(i - 1, {"狀", "状", "圓", "圆"});
+  if (isHan(i)) return category.property == "shape" && last_.end == i && isHan(i - 1) && !is(i - 1, "形");
   return last_.end + 1 == i && is(i - 1, "-");
 }
 
@@ -189,9 +189,16 @@ void ParagraphReader::keepTerm(std::size_t i, const Meaning& meaning, const Subj
   // 節片倒卵形: a flat shape said of a stem itself stays with it.
   const bool ofStemItself = organ != nullptr && category.property == "shape" && !attributive && now.linked && contains(category.notOrgans, organ->name);
   const bool takesDefault = organ == nullptr || category.ownOrgan || perennial || (!ofStemItself && (!accepts(category, organ) || (ofForm && isBody(*organ) && !fitsBody)));
+  // Stems in a tuft are the habit of a plant, leaves in a tuft an arrangement.
+  const bool tuft = organ != nullptr && isOneOf(organ->name, {"stem", "plant"}) && category.property == "arrangement" && meaning.entry->name == "fascicled" && (now.linked || attributive);
   const bool placeHolds = place != nullptr && isOneOf(place->name, {"apex", "base"}) && category.property == "shape" && (placeNamed || !scope_.commaSincePlace);
   Trait trait = traitAt(f.first, f.end, takesDefault ? category.defaultOrgan : organ->name, placeHolds ? place->name : category.property);
   trait.value = meaning.entry->name;
+  if (tuft) {
+    trait.organ = organ->name;
+    trait.property = "habit";
+    trait.value = "tufted";
+  }
   trait.qualifier = now.qualifier;
   if (!takesDefault && piece != nullptr) trait.part = piece->name;
   if (!takesDefault && !attributive) trait.which = scope_.which;
@@ -215,7 +222,8 @@ void ParagraphReader::startWithPlant(std::size_t i) {
   const Meaning* duration = found_[i].as("duration");
   const bool ofYears = duration != nullptr && isOneOf(duration->entry->name, {"annual", "biennial", "perennial", "evergreen", "deciduous"});
   const bool habit = found_[i].as("habit") != nullptr && isAny(found_[i].end, {"by", "over", "up"});  // "Climbing by tendrils"
-  const bool begins = startsSentence(i) && (habit || (ofYears && isAny(found_[i].end, {",", ";", ".", "，"})));
+  const bool lifeForm = found_[i].as("life form") != nullptr && found_[i].as("organ") == nullptr;  // "Aquatic, free-floating"
+  const bool begins = startsSentence(i) && (habit || ((ofYears || lifeForm) && isAny(found_[i].end, {",", ";", ".", "，"})));
   if (scope_.organInSentence || (!begins && !isPlantNoun(i))) return;
   plantInSentence_ = true;
   scope_ = {&organNamed("plant"), nullptr, nullptr, nullptr, {}, i, true, false, true, false, nullptr, nullptr};
@@ -237,7 +245,11 @@ bool ParagraphReader::saysNothingOf(const Meaning& meaning, std::size_t i, const
   if (property == "type" && value == "solitary")
     return isOneOf(name, {"stem", "trunk", "leaf", "thorn", "branch", "seed", "bulb", "tuber", "root", "ovule", "pseudobulb", "tendril", "carpel", "stamen", "style", "rhizome", "corm", "plant"});
   if (property == "arrangement" && value == "opposite" && isAny(i, {"in", "paired", "成"})) return isOneOf(name, {"flower", "fruit", "inflorescence", "thorn", "stamen", "seed", "bract", "plant"});
-  if (property == "arrangement" && value == "rosette" && is(i, "basal") && found_[i].end == i + 1) return !isPredicateBasal(i);
+  if (property == "arrangement" && value == "rosette" && isAny(i, {"basal", "radical"}) && found_[i].end == i + 1) return !isPredicateBasal(i);
+  if (property == "arrangement" && value == "whorled" && i > 0 && tokens_[i - 1].kind == TokenKind::Number) return isOneOf(name, {"tepal", "petal", "sepal", "stamen", "bract", "carpel"});
+  if (property == "shape" && name == "vein") return true;
+  if (property == "branching" && i > 0 && is(i - 1, "每")) return true;
+  if (property == "margin" && value == "lobed" && i > 0 && isAny(i - 1, {"或", "至", "到"}) && lastCount_.piece == "lobe" && lastCount_.end + 1 == i) return true;  // 3淺裂或中裂
   if (property == "margin" && isOneOf(value, {"lobed", "sinuate", "incised"})) return place != nullptr && isOneOf(place->name, {"base", "apex"});
   return is(found_[i].end, "like") || (is(found_[i].end, "-") && is(found_[i].end + 1, "like"));
 }
