@@ -4,6 +4,7 @@
 #include "app/terminal.hpp"
 #include "document/plant_file.hpp"
 #include "quantify/compare.hpp"
+#include "quantify/stalks.hpp"
 #include "render/render.hpp"
 #include "simeco/simeco.hpp"
 
@@ -57,7 +58,7 @@ Result<Measurements> grownPlant(const std::string& path, std::uint64_t seed) {
   if (!plant) return plant.failure();
   const auto skeleton = render::skeletonOf(*plant);
   if (!skeleton) return skeleton.failure();
-  return quantify::measure(*skeleton);
+  return quantify::measure(quantify::withoutStalks(*skeleton));
 }
 
 bool isGrammar(const fs::path& path) { return path.extension() == ".simeco" || path.extension() == ".l"; }
@@ -128,17 +129,21 @@ std::string comparisonText(const quantify::PlantComparison& c, const CompareComm
   return text;
 }
 
-Json setsJson(const std::vector<quantify::DistributionDistance>& all, std::size_t a, std::size_t b) {
-  Json json{{"plants", {{"a", a}, {"b", b}}}, {"distributions", Json::array()}};
-  for (const auto& d : all)
-    json["distributions"].push_back({{"quantity", d.quantity}, {"samples_a", d.samplesA}, {"samples_b", d.samplesB}, {"mean_a", d.meanA}, {"mean_b", d.meanB}, {"ks", d.ks}, {"p", d.p}, {"wasserstein", d.wasserstein}});
+Json setsJson(const quantify::SetComparison& all, std::size_t a, std::size_t b) {
+  Json json{{"plants", {{"a", a}, {"b", b}}}, {"p", all.p}, {"exchanges", all.exchanges}, {"distributions", Json::array()}};
+  for (const auto& d : all.distances)
+    json["distributions"].push_back({{"quantity", d.quantity}, {"samples_a", d.samplesA}, {"samples_b", d.samplesB}, {"mean_a", d.meanA}, {"mean_b", d.meanB}, {"ks", d.ks}, {"p", d.p},
+                                     {"p_independent", d.pIndependent}, {"wasserstein", d.wasserstein}});
   return json;
 }
-std::string setsText(const std::vector<quantify::DistributionDistance>& all, std::size_t a, std::size_t b) {
-  std::string text = line("%zu and %zu plants", a, b);
-  for (const auto& d : all)
-    text += line("%-15s means %.4g and %.4g of %zu and %zu; KS %.3f (p = %.3g), Wasserstein %.3g", d.quantity.c_str(), d.meanA, d.meanB, d.samplesA, d.samplesB, d.ks, d.p, d.wasserstein);
-  return text;
+std::string setsText(const quantify::SetComparison& all, std::size_t a, std::size_t b) {
+  std::string text = line("%zu and %zu plants                     mean A      mean B   samples A   samples B          KS           p  Wasserstein", a, b);
+  for (const auto& d : all.distances)
+    if (d.samplesA + d.samplesB > 0)
+      text += line("%-30s %11.4g %11.4g %11zu %11zu %11.3f %11.3g %12.3g", d.quantity.c_str(), d.meanA, d.meanB, d.samplesA, d.samplesB, d.ks, d.p, d.wasserstein);
+  text += all.exchanges > 0 ? line("p = %.3g that all are alike (%zu exchanges of plants between the sets)", all.p, all.exchanges)
+                            : line("p = %.3g that all are alike (too few plants to exchange: as if samples were independent)", all.p);
+  return text + "lengths are shares of the mean height of A; angles are radians\n";
 }
 
 int run(const CompareCommand& given) {

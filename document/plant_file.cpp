@@ -99,7 +99,7 @@ Result<PlantFile> readPlant(const std::filesystem::path& file, const ChainOption
     if (!text) return text.failure();
     auto skeleton = parseSkeleton(*text);
     if (!skeleton) return named(skeleton.error());
-    plant.skeleton = std::move(*skeleton);
+    plant.skeleton = quantify::withoutStalks(std::move(*skeleton));  // a grown plant has them as stems
   } else {
     const auto open = loadProject(file);
     if (!open) return open.failure();

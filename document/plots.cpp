@@ -99,7 +99,7 @@ std::string row(const std::string& label, double a, double b, double c) {
 }
 
 Json countJson(const ForetoldCount& c) {
-  return {{"foretold", c.foretold}, {"low", c.low}, {"high", c.high}, {"true", c.truth}, {"repeated", c.repeated}, {"thesis", c.thesis}};
+  return {{"foretold", c.foretold}, {"mean", c.mean}, {"low", c.low}, {"high", c.high}, {"true", c.truth}, {"repeated", c.repeated}, {"thesis", c.thesis}};
 }
 
 }  // namespace
@@ -122,7 +122,9 @@ std::string backtestText(const quantify::Backtest& test) {
   text += "mean absolute error                           layered    last again        thesis\n";
   text += row("length of a new segment", s.lengthError, s.lengthErrorRepeated, s.lengthErrorThesis);
   text += row("organs of the plant, all", s.countError, s.countErrorRepeated, s.countErrorThesis);
-  text += row("organs that are new", s.newError, s.newErrorRepeated, s.newErrorThesis);
+  text += row("new organs of a plant", s.newError, s.newErrorRepeated, s.newErrorThesis);
+  if (test.plants.size() > 1) text += row("new organs of all plants together", s.togetherError, s.togetherErrorRepeated, s.togetherErrorThesis);
+  text += "\nBy the outlook itself chance moves the new organs of a plant by " + percent(s.newErrorByChance) + "; no forecast of single plants can do much better.";
   text += "\n90 % intervals hold " + percent(s.lengthCoverage) + " of the lengths and the new segments of " + percent(s.countCoverage) + " of the plants.\n";
   if (s.exact > 0) text += percent(static_cast<double>(s.exact) / static_cast<double>(s.lengths)) + " of the lengths vary in no way and were foretold exactly; they count as held.\n";
   for (const auto& p : test.plants)
@@ -135,7 +137,8 @@ std::string backtestJson(const quantify::Backtest& test) {
   Json json = {{"axil_backtest", 1},
                {"length_error", {{"layered", s.lengthError}, {"repeated", s.lengthErrorRepeated}, {"thesis", s.lengthErrorThesis}}},
                {"count_error", {{"layered", s.countError}, {"repeated", s.countErrorRepeated}, {"thesis", s.countErrorThesis}}},
-               {"new_count_error", {{"layered", s.newError}, {"repeated", s.newErrorRepeated}, {"thesis", s.newErrorThesis}}},
+               {"new_count_error", {{"layered", s.newError}, {"repeated", s.newErrorRepeated}, {"thesis", s.newErrorThesis}, {"chance", s.newErrorByChance}}},
+               {"new_count_error_together", {{"layered", s.togetherError}, {"repeated", s.togetherErrorRepeated}, {"thesis", s.togetherErrorThesis}}},
                {"length_coverage", s.lengthCoverage}, {"count_coverage", s.countCoverage}, {"lengths", s.lengths}, {"exact", s.exact}, {"plants", Json::array()}, {"notes", test.notes}};
   for (const auto& p : test.plants) {
     Json plant = {{"plant", p.plant + 1}, {"segments", p.segments}, {"new_segments", countJson(p.newSegments)}, {"new_leaves", countJson(p.newLeaves)}, {"unforeseen", p.unforeseen}, {"lengths", Json::array()}};

@@ -111,6 +111,12 @@ Json structureJson(const LayeredStatistics& s) {
     for (const auto& fate : f.fates) fates.push_back({{"goes_on", fate.goesOn}, {"branches", fate.branches}, {"share", short6(fate.share)}, {"count", fate.count}});
     structure["fates"].push_back({{"order", f.order}, {"fates", fates}, {"segments", f.segments}});
   }
+  structure["arms"] = Json::array();
+  for (const auto& layers : s.arms) {
+    Json arms = Json::array();
+    for (const auto& arm : layers.arms) arms.push_back({{"insertion", estimateJson(arm.insertion, Kind::Angle)}, {"lateral_ratio", estimateJson(arm.lateralRatio, Kind::Ratio)}});
+    structure["arms"].push_back({{"order", layers.order ? Json(*layers.order) : Json("all")}, {"arms", arms}});
+  }
   for (const auto& o : s.schedule.orders) {
     Json json = {{"order", o.order}, {"steady", o.steady}, {"delay", o.delay}, {"rate", short6(o.rate)}};
     if (o.lasting) json["lasting"] = *o.lasting;
@@ -168,6 +174,15 @@ std::string scheduleText(const quantify::OrderSchedule& o) {
   return text + fixed(o.rate, 2) + " segments a stage" + (o.lasting ? ", for " + fixed(*o.lasting, 0) + " stages" : "") + "\n";
 }
 
+std::string armText(const quantify::ArmLayers& layers) {
+  std::string text = layers.order ? "order " + std::to_string(*layers.order) : std::string("all orders");
+  text += ", nodes of " + std::to_string(layers.arms.size()) + " axes: ";
+  for (const auto& arm : layers.arms)
+    text += (&arm == &layers.arms.front() ? "one leaves at " : ", one at ") + fixed(arm.insertion.value * kDegrees, 1) + " +- " + fixed(arm.insertion.error * kDegrees, 1) + " degrees, x " +
+            fixed(arm.lateralRatio.value, 3) + " as long as its bearer";
+  return text + " (" + std::to_string(layers.arms.front().insertion.samples) + " nodes)\n";
+}
+
 std::string habitText(const LayeredStatistics& s) {
   std::size_t monopodial = 0;
   std::size_t sympodial = 0;
@@ -180,6 +195,8 @@ std::string habitText(const LayeredStatistics& s) {
   text += arrangementText("leaves", s.leaves.back()) + arrangementText("branches", s.branchesAround.back());
   text += "\nbranching pattern\n";
   for (const auto& p : s.patterns) text += "  " + patternText(p);
+  if (!s.arms.empty()) text += "arms that differ\n";
+  for (const auto& layers : s.arms) text += "  " + armText(layers);
   text += "growth\n";
   for (const auto& o : s.schedule.orders) text += "  " + scheduleText(o);
   return text;

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -36,10 +37,11 @@ constexpr double kNinety = 1.6448536269514722;
 constexpr double kLongest = 2;          // a trend that grows stops at this many times the longest measured
 constexpr const char* kNames[] = {"rank", "length", "around", "side", "wait", "left"};
 
-/// One alternative of a rule.
+/// One alternative of a rule; its share, by rank where a table says so.
 struct Choice {
   double share = 1;
-  std::vector<Module> modules;
+  std::optional<ExprId> byRank = {};
+  std::vector<Module> modules = {};
 };
 
 /// What an apex starts with. Expressions, so that rules can hand them on.
@@ -292,15 +294,21 @@ class Predictor {
     to.push_back(apex(apexOf(o.order), next, bends(o)));
   }
 
+  /// The foretold length of an axis that branches off. The bearer is the segment below the one whose length an apex knows.
+  ExprId branchLength(const OrderOutlook& bearer, const OrderOutlook& o, double armRatio) {
+    return o.start == quantify::StartRule::Usual ? size(o.usualLength) : scaled(name("length"), armRatio / bearer.length.step);
+  }
+
   /// What branches off at an apex' node.
   void addBranches(std::vector<Module>& to, const OrderOutlook& bearer, int count) {
     const OrderOutlook& o = outlook_.of(bearer.order + 1);
-    // The bearer is the segment below the one whose length is foretold.
-    const ExprId length = o.followsBearer ? scaled(name("length"), o.bearerRatio / bearer.length.step) : size(o.usualLength);
+    const auto arms = bearer.arms.find(count);
     for (int b = 0; b < count; ++b) {
+      const quantify::ArmOutlook arm = arms == bearer.arms.end() ? quantify::ArmOutlook{o.insertion, o.bearerRatio} : arms->second[static_cast<std::size_t>(b)];
+      const ExprId length = branchLength(bearer, o, arm.ratio);
       const double beside = std::remainder(bearer.branchBesideLeaf + kTurn * b / count, kTurn);
       to.push_back(Builder::module("["));
-      turn(to, drawnAngle(o.insertion.value, o.insertion.deviation), std::abs(beside) < 1e-4 ? name("around") : plus(name("around"), angle(beside)));
+      turn(to, drawnAngle(arm.insertion.value, arm.insertion.deviation), std::abs(beside) < 1e-4 ? name("around") : plus(name("around"), angle(beside)));
       if (bearer.delay == 0) {
         startAxis(to, o, length, leftAfter(o.order, 1), o.leafShare);
       } else {
@@ -333,24 +341,46 @@ class Predictor {
     return to;
   }
 
-  std::vector<Choice> choicesOf(const OrderOutlook& o, const std::vector<Fate>& fates) {
+  /// "branch2Of1": nodes of order 1 that go on with two branches.
+  static std::string fateName(const Fate& fate, int order) {
+    const std::string what = fate.goesOn ? (fate.branches > 0 ? "branch" : "goOn") : (fate.branches > 0 ? "fork" : "end");
+    return what + (fate.branches > 1 ? std::to_string(fate.branches) : "") + "Of" + std::to_string(order);
+  }
+  /// The share of a fate, from a table by the rank of the node that an apex stands at: that of the segment below it.
+  ExprId shareByRank(const OrderOutlook& o, std::size_t fate) {
+    const quantify::FateTable& table = o.fates;
+    const std::string array = fateName(table.fates[fate], o.order);
+    simeco::ArrayDeclaration declaration{array, {static_cast<int>(table.byRank.size())}, {}};
+    for (const auto& row : table.byRank) declaration.initial.push_back(ratio(row[fate]));
+    auto& arrays = rules().arrays;
+    if (std::none_of(arrays.begin(), arrays.end(), [&](const auto& a) { return a.name == array; })) arrays.push_back(std::move(declaration));
+    const int rows = static_cast<int>(table.byRank.size());
+    const bool periodic = table.shape == quantify::FateTable::Shape::Periodic;
+    const ExprId row = periodic ? builder_.binary(BinaryOp::Remainder, plus(name("rank"), builder_.whole(rows - 1)), builder_.whole(rows))
+                                : builder_.call("min", {minus(name("rank"), builder_.whole(1)), builder_.whole(rows - 1)});
+    return out_.grammar.add(simeco::Element{array, {row}});
+  }
+
+  std::vector<Choice> choicesOf(const OrderOutlook& o) {
     std::vector<Choice> choices;
     const double rate = o.schedule.steady ? 1 : o.schedule.rate;
     const double leafShare = o.perNode > 0 ? o.leafShare : 0;
     const bool chance = leafShare > 0.1 && leafShare < 0.9;
-    for (const Fate& fate : fates) {
-      if (fate.share < kRare) continue;
-      if (!chance) {
-        choices.push_back({rate * fate.share, successorOf(o, fate, leafShare >= 0.9)});
-        continue;
-      }
-      choices.push_back({rate * fate.share * leafShare, successorOf(o, fate, true)});
-      choices.push_back({rate * fate.share * (1 - leafShare), successorOf(o, fate, false)});
+    const bool table = o.fates.byRank.size() > 1;
+    const auto add = [&](std::size_t f, double share, bool leaves) {
+      const Fate& fate = o.fates.fates[f];
+      choices.push_back({share * (table ? 1 : fate.share), {}, successorOf(o, fate, leaves)});
+      if (table) choices.back().byRank = shareByRank(o, f);
+    };
+    for (std::size_t f = 0; f < o.fates.fates.size(); ++f) {
+      if (o.fates.fates[f].share < kRare) continue;
+      add(f, rate * (chance ? leafShare : 1), chance || leafShare >= 0.9);
+      if (chance) add(f, rate * (1 - leafShare), false);
     }
     if (rate < 1 - kRare) {
       auto same = named(apexOf(o.order));
       same.back() = minus(name("left"), builder_.whole(1));
-      choices.push_back({1 - rate, {Builder::module("A", std::move(same))}});
+      choices.push_back({1 - rate, {}, {Builder::module("A", std::move(same))}});
     }
     return choices;
   }
@@ -361,13 +391,17 @@ class Predictor {
     double sum = 0;
     for (const Choice& c : choices) sum += c.share;
     if (sum <= 0) return;
+    // Shares from tables add up to one by themselves.
+    if (std::any_of(choices.begin(), choices.end(), [](const Choice& c) { return c.byRank.has_value(); })) sum = 1;
     simeco::Production rule;
     rule.predecessor = {Builder::module("A", named(number))};
     rule.condition = condition;
     rule.conditionPlace = simeco::ConditionPlace::AfterColon;
     for (Choice& c : choices) {
       rule.successors.push_back({std::move(c.modules), std::nullopt});
-      if (choices.size() > 1) rule.successors.back().weight = ratio(std::max(1e-4, c.share / sum));
+      if (choices.size() < 2) continue;
+      const double share = std::max(1e-4, c.share / sum);
+      rule.successors.back().weight = !c.byRank ? ratio(share) : share > 1 - 1e-9 ? *c.byRank : times(ratio(share), *c.byRank);
     }
     rule.comments.before = std::move(comments);
     rules().productions.push_back(std::move(rule));
@@ -395,8 +429,8 @@ class Predictor {
     if (!budShares_.contains(order)) return;
     needsStart_[order] = true;
     const double share = std::clamp(budShares_.at(order), 0.0, 1.0);
-    std::vector<Choice> choices{{share, {Builder::module("A", named(startOf(order)))}}};
-    if (share < 1 - kRare) choices.push_back({1 - share, {}});
+    std::vector<Choice> choices{{share, {}, {Builder::module("A", named(startOf(order)))}}};
+    if (share < 1 - kRare) choices.push_back({1 - share});
     addRule(budOf(order), alive(), std::move(choices), {"// Nodes that were too young to branch: " + fixed(100 * share, 0) + " % of them will."});
   }
 
@@ -410,21 +444,10 @@ class Predictor {
   void addOrderRules(const OrderOutlook& o) {
     ExprId condition = alive();
     if (o.most) condition = builder_.binary(BinaryOp::And, condition, builder_.binary(BinaryOp::Less, name("rank"), builder_.whole(*o.most)));
-    std::vector<std::string> comments = commentsFor(o);
-    if (o.period > 1) {
-      // The node at which an apex stands has the rank of the segment below it.
-      const ExprId place = builder_.binary(BinaryOp::Remainder, plus(name("rank"), builder_.whole(o.period - 1)), builder_.whole(o.period));
-      const ExprId here = builder_.binary(BinaryOp::Equal, place, builder_.whole(o.phase));
-      addRule(apexOf(o.order), builder_.binary(BinaryOp::And, condition, here), choicesOf(o, o.fates), std::move(comments));
-      comments = {};
-      addRule(apexOf(o.order), alive(), choicesOf(o, {{true, 0, 1, 0}}), {});
-      if (o.most) rules().productions.back().condition = builder_.binary(BinaryOp::And, alive(), builder_.binary(BinaryOp::Less, name("rank"), builder_.whole(*o.most)));
-    } else {
-      addRule(apexOf(o.order), condition, choicesOf(o, o.fates), std::move(comments));
-    }
+    addRule(apexOf(o.order), condition, choicesOf(o), commentsFor(o));
     for (auto& [order, modules] : pendingStart_)
       if (needsStart_[order] && !modules.empty()) {
-        addRule(startOf(order), alive(), {{1, std::move(modules)}}, {"// A branch of order " + std::to_string(order) + " begins."});
+        addRule(startOf(order), alive(), {{1, {}, std::move(modules)}}, {"// A branch of order " + std::to_string(order) + " begins."});
         modules.clear();
       }
   }
@@ -464,19 +487,29 @@ class Predictor {
 
   std::vector<std::string> commentsFor(const OrderOutlook& o) const {
     std::string fates;
-    for (const Fate& fate : o.fates) {
+    for (const Fate& fate : o.fates.fates) {
       if (fate.share < kRare) continue;
       const std::string branches = fate.branches == 0 ? "" : " with " + countOf(static_cast<std::size_t>(fate.branches), "branch", "branches");
-      fates += (fates.empty() ? "" : ", ") + (fate.goesOn ? "goes on" + branches : fate.branches > 0 ? "ends" + branches : std::string("ends")) + " " + fixed(100 * fate.share, 0) + " %";
+      fates += (fates.empty() ? "" : ", ") + (fate.goesOn ? "goes on" + branches : fate.branches > 0 ? "forks into " + std::to_string(fate.branches) : std::string("ends")) + " " + fixed(100 * fate.share, 0) + " %";
     }
-    std::vector<std::string> lines{"// Order " + std::to_string(o.order) + ", from " + countOf(o.segments, "segment", "segments") + ": an apex " + fates +
-                                   (o.period > 1 ? " at every " + std::to_string(o.period) + ". node" : "") + "."};
+    std::vector<std::string> lines{"// Order " + std::to_string(o.order) + ", from " + countOf(o.segments, "segment", "segments") + ": an apex " + fates + shapeWords(o.fates) + "."};
     std::string growth = "// Its next length is foretold from " + std::string(quantify::nameOf(o.length.rule)) + ", x " + fixed(o.length.step, 4) + " a rank; 90 % within a factor of " +
                          fixed(std::exp(kNinety * o.length.miss), 3) + " (" + countOf(o.length.samples, "sample", "samples") + ").";
     if (!o.schedule.steady) growth += " It makes " + fixed(o.schedule.rate, 2) + " segments a stage" + (o.schedule.lasting ? " for " + fixed(*o.schedule.lasting, 0) + " stages." : ".");
     if (o.most) growth += " Axes end after " + countOf(static_cast<std::size_t>(*o.most), "segment", "segments") + ".";
     lines.push_back(growth);
     return lines;
+  }
+
+  static std::string shapeWords(const quantify::FateTable& table) {
+    using Shape = quantify::FateTable::Shape;
+    switch (table.shape) {
+      case Shape::Alike: return "";
+      case Shape::FirstRanks: return " on average; the first " + std::to_string(table.byRank.size() - 1) + " of an axis are their own";
+      case Shape::Periodic: return " on average; every " + std::to_string(table.byRank.size()) + ". node is alike";
+      case Shape::Rising: return std::string(" on average; branches come ") + (table.branchingAt(1) > table.branchingAt(0) ? "oftener" : "seldomer") + " the higher a node stands";
+    }
+    return "";
   }
 
   void addHeading() {

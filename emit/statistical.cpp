@@ -54,7 +54,7 @@ class FamilyText {
     for (const FamilyOrder& o : family.orders) {
       arranged_ = arranged_ || isArranged(o);
       turning_ = turning_ || bends(o);
-      ranked_ = ranked_ || !o.byRank.empty() || o.along == Along::Rank || taper(o) != 1;
+      ranked_ = ranked_ || o.fates.byRank.size() > 1 || o.along == Along::Rank || taper(o) != 1;
     }
     turning_ = turning_ && arranged_;
   }
@@ -81,7 +81,8 @@ class FamilyText {
   }
   [[nodiscard]] bool bearsBranches(const FamilyOrder& o) const {
     if (o.order + 1 >= depth_) return false;
-    return o.branches.front() < 1 - kNever || std::any_of(o.ends.begin(), o.ends.end(), [](const auto& e) { return e.arms > 0 && e.share > kNever; });
+    return std::any_of(o.fates.fates.begin(), o.fates.fates.end(), [](const auto& f) { return f.branches > 0 && f.share > kNever; }) ||
+           std::any_of(o.ends.begin(), o.ends.end(), [](const auto& e) { return e.arms > 0 && e.share > kNever; });
   }
   [[nodiscard]] const FamilyOrder& above(const FamilyOrder& o) const { return o.lastOrder > o.order || &o == &family_.orders.back() ? o : *(&o + 1); }
   [[nodiscard]] bool manyOrders(const FamilyOrder& o) const { return o.lastOrder > o.order; }
@@ -156,8 +157,7 @@ class FamilyText {
     return "max(1, round(" + (o.own.form == Distribution::Form::Constant ? number(o.own.centre) : drawn(o.own, named("segments", o))) + "+" + number(o.slope) + "*" + along + "))";
   }
   /// The first apex of an axis that `bearer` carries.
-  std::string lateral(const FamilyOrder& bearer, const FamilyOrder& o) {
-    const std::string start = positive(o.start, named("start", o));
+  std::string lateral(const FamilyOrder& bearer, const FamilyOrder& o, const std::string& start) {
     const std::string length = o.startsFromBearer ? times("length", start) : times(number(o.usual), start);
     const std::string order = manyOrders(bearer) ? "order+1" : std::to_string(bearer.order + 1);
     return apex({order, "0", length, firstAround(o), newSide(o), leftOf(o)});
@@ -241,8 +241,10 @@ class FamilyText {
     for (int b = 0; b < count; ++b) {
       const double beside = std::remainder((hasLeaves(o) ? o.outlook.branchBesideLeaf : 0) + kTurn * b / count, kTurn);
       const std::string turn = std::abs(beside) < 1e-3 ? "" : (beside > 0 ? "+" : "") + number(beside);
-      const std::string insertion = arms == o.arms.end() ? positive(o.insertion, named("insertion", o)) : positive(arms->second[static_cast<std::size_t>(b)], named("arm" + std::to_string(b + 1) + "of", o));
-      text += "[rotr(" + insertion + ")rotu(" + (arranged ? "around" + turn : kAnySide) + ")" + lateral(o, next) + "] ";
+      const quantify::FamilyArm arm = arms == o.arms.end() ? quantify::FamilyArm{o.insertion, next.start} : arms->second[static_cast<std::size_t>(b)];
+      const std::string which = arms == o.arms.end() ? "" : "OfArm" + std::to_string(b + 1);
+      text += "[rotr(" + positive(arm.insertion, named("insertion" + which, o)) + ")rotu(" + (arranged ? "around" + turn : kAnySide) + ")" +
+              lateral(o, next, positive(arm.start, named("start" + which, which.empty() ? next : o))) + "] ";
     }
     return text;
   }
@@ -293,30 +295,33 @@ class FamilyText {
     return text;
   }
 
+  /// What becomes of a node with more to come. Orders that may bear nothing go on instead.
   std::vector<Alternative> midway(const FamilyOrder& o) {
-    std::vector<Alternative> all;
-    const double on = 1 - o.ending;
     const bool bears = bearsBranches(o);
-    const double some = 1 - o.branches.front();
-    for (std::size_t k = 0; k < o.branches.size(); ++k) {
-      const double share = bears ? o.branches[k] : k == 0 ? 1 : 0;
-      if (share * on < kNever) continue;
-      std::string weight = number(share * on);
-      if (!o.byRank.empty() && bears) {
-        const std::string at = ranks(o);
-        weight = k == 0 ? times(number(on), "(1-" + at + ")") : times(number(on * o.branches[k] / some), at);
-      }
-      all.push_back({weight, share * on, axesAt(o, static_cast<int>(k)) + goingOn(o)});
+    std::vector<std::size_t> fates;
+    for (std::size_t f = 0; f < o.fates.fates.size(); ++f)
+      if (o.fates.fates[f].share >= kNever) fates.push_back(f);
+    std::vector<Alternative> all;
+    for (const std::size_t f : fates) {
+      const quantify::Fate& fate = o.fates.fates[f];
+      const std::string modules = axesAt(o, bears ? fate.branches : 0) + (fate.goesOn ? goingOn(o) : "");
+      const auto same = std::find_if(all.begin(), all.end(), [&](const Alternative& a) { return a.modules == modules; });
+      const std::string weight = o.fates.byRank.size() < 2 ? number(fate.share) : fates.size() == 2 && f == fates.front() ? "(1-" + byRank(o, fates.back()) + ")" : byRank(o, f);
+      if (same == all.end()) all.push_back({weight, fate.share, modules});
+      else *same = {"(" + same->weight + "+" + weight + ")", same->share + fate.share, modules};
     }
-    if (o.ending < kNever) return all;
-    for (const auto& end : o.ends)
-      if (o.ending * end.share >= kNever) all.push_back({number(o.ending * end.share), o.ending * end.share, axesAt(o, end.arms)});
+    if (all.size() == 1) all.front().weight = "1";
     return all;
   }
-  std::string ranks(const FamilyOrder& o) {
-    const std::string size = std::to_string(o.byRank.size());
-    const std::string name = arrayOf(named("branching", o), o.byRank);
-    return name + (o.periodic ? "[rank%" + size + "]" : "[min(rank, " + std::to_string(o.byRank.size() - 1) + ")]");
+  /// "branching0[min(rank, 8)]"
+  std::string byRank(const FamilyOrder& o, std::size_t f) {
+    const quantify::Fate& fate = o.fates.fates[f];
+    std::vector<double> shares;
+    for (const auto& row : o.fates.byRank) shares.push_back(row[f]);
+    const std::string what = fate.goesOn ? (fate.branches > 0 ? "branching" : "goingOn") : (fate.branches > 0 ? "forking" : "ending");
+    const std::string name = arrayOf(named(what + (fate.branches > 1 ? std::to_string(fate.branches) + "Of" : ""), o), shares);
+    const std::string size = std::to_string(shares.size());
+    return name + (o.fates.shape == quantify::FateTable::Shape::Periodic ? "[rank%" + size + "]" : "[min(rank, " + std::to_string(shares.size() - 1) + ")]");
   }
   std::vector<Alternative> atTheEnd(const FamilyOrder& o) {
     std::vector<Alternative> all;
@@ -350,18 +355,24 @@ class FamilyText {
     words += ", the first " + (o.startsFromBearer ? described(o.start, "", 1) + " times its bearer" : "about " + number(o.usual) + " " + m_.unit);
     return words;
   }
+  static double endingShare(const FamilyOrder& o) {
+    double share = 0;
+    for (const quantify::Fate& f : o.fates.fates) share += f.goesOn ? 0 : f.share;
+    return share;
+  }
   std::string extentWords(const FamilyOrder& o) const {
     if (o.extent == Extent::Stages)
       return "it grows as long as its bearer" + std::string(o.delay > 0 ? ", " + std::to_string(o.delay) + " later" : "") + (o.most ? ", to " + std::to_string(*o.most) + " segments" : "") +
-             (o.ending >= kNever ? ", each node ending it with " + percent(o.ending) : "");
+             (endingShare(o) >= kNever ? ", each node ending it with " + percent(endingShare(o)) : "");
     const double usual = static_cast<double>(o.segments) / static_cast<double>(std::max<std::size_t>(1, o.axes));
     return "it makes " + number(std::stod(fixed(usual, 1))) + " segments" + (o.along == Along::Left ? ", more where its bearer has more to go" : o.along == Along::Rank ? (o.slope > 0 ? ", more the higher it stands" : ", fewer the higher it stands") : "");
   }
   std::string branchWords(const FamilyOrder& o) const {
     std::string words = "bears";
     std::string list;
-    for (std::size_t k = 0; k < o.branches.size(); ++k)
-      if (o.branches[k] >= kNever) list += (list.empty() ? " " : ", ") + countOf(k, "branch", "branches") + " at " + percent(o.branches[k]);
+    for (const quantify::Fate& f : o.fates.fates)
+      if (f.share >= kNever && f.branches > 0)
+        list += (list.empty() ? " " : ", ") + countOf(static_cast<std::size_t>(f.branches), f.goesOn ? "branch" : "arm", f.goesOn ? "branches" : "arms") + " at " + percent(f.share);
     words += o.nodes > 0 ? list + " of " + countOf(o.nodes, "node", "nodes") : "";
     for (const auto& end : o.ends)
       if (end.arms > 0 && end.share >= kNever) words += (o.nodes > 0 ? ", " : " ") + countOf(static_cast<std::size_t>(end.arms), "axis", "axes") + " at " + percent(end.share) + " of its ends";

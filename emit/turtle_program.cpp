@@ -84,8 +84,9 @@ class ProgramWriter {
       text += "\n";
     }
     if (!rules_.arrays.empty()) text += cpfgArrays();
-    text += cpfgBlock("Start", rules_.start) + cpfgBlock("StartEach", rules_.startEach) + cpfgBlock("EndEach", rules_.endEach) + cpfgBlock("End", rules_.end);
-    text += "Axiom: " + axiom() + "\n";
+    const std::string start = axiom();  // what it draws stands in the block before it
+    text += cpfgBlock("Start", rules_.start, axiomDraws_) + cpfgBlock("StartEach", rules_.startEach) + cpfgBlock("EndEach", rules_.endEach) + cpfgBlock("End", rules_.end);
+    text += "Axiom: " + start + "\n";
     for (std::size_t p = 0; p < rules_.productions.size(); ++p) text += cpfgRule(p);
     return finished(text + "endlsystem\n");
   }
@@ -100,7 +101,9 @@ class ProgramWriter {
     for (const simeco::ArrayDeclaration& array : rules_.arrays) text += pythonArray(array);
     for (const std::string& name : globals()) text += name + " = 0\n";
     text += pythonBlock("Start", rules_.start) + pythonBlock("StartEach", rules_.startEach) + pythonBlock("EndEach", rules_.endEach) + pythonBlock("End", rules_.end);
-    text += "\nAxiom: " + axiom() + "\n\nderivation length: " + std::to_string(steps) + "\nproduction:\n";
+    const std::string start = axiom();
+    for (const std::string& draw : axiomDraws_) text += "\n" + draw;
+    text += "\nAxiom: " + start + "\n\nderivation length: " + std::to_string(steps) + "\nproduction:\n";
     std::string open;
     for (std::size_t p = 0; p < rules_.productions.size(); ++p) text += pythonRule(p, open);
     return finished(text + "\nendlsystem\n");
@@ -198,8 +201,10 @@ class ProgramWriter {
     }
     return text;
   }
-  std::string cpfgBlock(const char* name, const simeco::Block& block) {
-    return block.empty() ? std::string{} : std::string(name) + ": {" + cpfgStatements(block) + "}\n";
+  std::string cpfgBlock(const char* name, const simeco::Block& block, const std::vector<std::string>& draws = {}) {
+    std::string text = cpfgStatements(block);
+    for (const std::string& draw : draws) text += draw + "; ";
+    return text.empty() ? text : std::string(name) + ": {" + text + "}\n";
   }
   std::string cpfgArrays() {
     std::string text = "define: { array ";
@@ -503,7 +508,7 @@ class ProgramWriter {
     text += roll({"", turn.rotu.radians()}) + pitch({"", turn.rotr.radians()});
     if (std::abs(rest) > kParallel) text += roll({"", rest});
     text += modules(rules_.axiom);
-    if (!writer_.takeDraws().empty()) troubles_.emplace_back("its axiom draws or computes turns");
+    axiomDraws_ = writer_.takeDraws();
     return text;
   }
 
@@ -682,6 +687,7 @@ class ProgramWriter {
   ExpressionWriter writer_;
   std::map<std::pair<std::string, int>, Body> bodies_;
   bool stochastic_ = false;
+  std::vector<std::string> axiomDraws_;
   std::vector<std::string> troubles_;
   Patterns asked_;    ///< by any rule, as predecessor or context
   Patterns turning_;  ///< rewritten into something that begins with a turn

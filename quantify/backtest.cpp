@@ -2,12 +2,15 @@
 
 #include "base/rng.hpp"
 #include "quantify/estimate.hpp"
+#include "quantify/prepared.hpp"
 #include "quantify/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 namespace axil::quantify {
 
@@ -90,7 +93,7 @@ struct Organs {
 class Counter {
  public:
   Counter(const Outlook& outlook, Rng& rng) : outlook_(outlook), rng_(rng) {
-    for (const OrderOutlook& o : outlook.orders) shares_.push_back(drawnShares(o.fates));
+    for (const OrderOutlook& o : outlook.orders) fates_.push_back(drawnFates(o.fates));
   }
 
   Organs grown(int stages) {
@@ -102,16 +105,21 @@ class Counter {
   }
 
  private:
-  std::vector<double> drawnShares(const std::vector<Fate>& fates) {
-    std::vector<double> shares;
-    double sum = 0;
-    for (const Fate& fate : fates) {
-      const double count = static_cast<double>(fate.count);
-      shares.push_back(fates.size() == 1 ? 1 : std::max(0.0, count + std::sqrt(count * (1 - fate.share)) * rng_.normal()));
-      sum += shares.back();
+  /// Shares as unsure as their nodes leave them. Rows that tell one trend stray together.
+  FateTable drawnFates(FateTable table) {
+    std::vector<double> strays;
+    for (std::size_t row = 0; row < table.byRank.size(); ++row) {
+      auto& shares = table.byRank[row];
+      double sum = 0;
+      for (std::size_t f = 0; f < shares.size(); ++f) {
+        if (row == 0 || table.shape != FateTable::Shape::Rising) strays.resize(shares.size()), strays[f] = rng_.normal();
+        const double n = std::max(1.0, table.seen[row]);
+        shares[f] = std::max(0.0, shares[f] + std::sqrt(shares[f] * (1 - shares[f]) / n) * strays[f]);
+        sum += shares[f];
+      }
+      for (double& share : shares) share = sum > 0 ? share / sum : 1.0 / static_cast<double>(shares.size());
     }
-    for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = sum > 0 ? shares[i] / sum : fates[i].share;
-    return shares;
+    return table;
   }
 
   [[nodiscard]] std::size_t indexOf(int order) const { return static_cast<std::size_t>(std::min(order, static_cast<int>(outlook_.orders.size()) - 1)); }
@@ -134,7 +142,7 @@ class Counter {
     for (; stages > 0 && organs_.segments < kMostOrgans; --stages) {
       if (o.most && rank >= *o.most) return;
       if (!o.schedule.steady && rng_.uniform() >= o.schedule.rate) continue;
-      const Fate fate = o.period > 1 && (rank - 1) % o.period != o.phase ? Fate{true, 0, 1, 0} : drawn(o.fates, shares_[place]);
+      const Fate fate = drawn(fates_[place], rank - 1);
       if (!o.leafAtOwnTip) leavesOn(o);
       for (int b = 0; b < fate.branches; ++b) start(order + 1, stages - o.delay);
       if (!fate.goesOn) return;
@@ -144,20 +152,54 @@ class Counter {
     }
   }
 
-  Fate drawn(const std::vector<Fate>& fates, const std::vector<double>& shares) {
+  Fate drawn(const FateTable& table, int rank) {
+    const std::vector<double>& shares = table.at(rank);
     double u = rng_.uniform();
-    for (std::size_t i = 0; i < fates.size(); ++i) {
+    for (std::size_t i = 0; i < shares.size(); ++i) {
       u -= shares[i];
-      if (u < 0) return fates[i];
+      if (u < 0) return table.fates[i];
     }
-    return fates.back();
+    return table.fates.back();
   }
 
   const Outlook& outlook_;
   Rng& rng_;
-  std::vector<std::vector<double>> shares_;
+  std::vector<FateTable> fates_;
   Organs organs_;
 };
+
+/// The whole numbers between which the share of `sorted` nearest to 90 % lies, of intervals whose tails are alike. Aims a little higher, since the outlook is an estimate itself.
+constexpr double kAimed = 0.92;
+std::pair<double, double> holdingNinety(const std::vector<double>& sorted) {
+  const double n = static_cast<double>(sorted.size());
+  const double middle = medianOf(sorted);
+  std::pair<double, double> best{sorted.front(), sorted.back()};
+  double least = 1;
+  for (std::size_t tail = 0; 2 * tail < sorted.size(); ++tail) {
+    // Whole numbers leave steps: each end may take a whole number more or less.
+    for (const auto& [low, high] : {std::pair(sorted[tail], sorted[sorted.size() - 1 - tail]), std::pair(sorted[tail] + 1, sorted[sorted.size() - 1 - tail]),
+                                    std::pair(sorted[tail], sorted[sorted.size() - 1 - tail] - 1)}) {
+      if (low > middle || high < middle) continue;
+      const auto from = std::lower_bound(sorted.begin(), sorted.end(), low), to = std::upper_bound(sorted.begin(), sorted.end(), high);
+      const double off = std::abs(static_cast<double>(to - from) / n - kAimed);
+      if (off >= least) continue;
+      least = off;
+      best = {low, high};
+    }
+  }
+  return best;
+}
+
+/// The number with the least mean percentage error against `sorted`: their median, each weighing as much as a miss of one costs there.
+double leastPercentage(const std::vector<double>& sorted) {
+  double all = 0, below = 0;
+  for (const double v : sorted) all += v > 0 ? 1 / v : 1;
+  for (const double v : sorted) {
+    below += v > 0 ? 1 / v : 1;
+    if (2 * below >= all) return v;
+  }
+  return sorted.back();
+}
 
 void countOrgans(BacktestOfPlant& result, const Outlook& outlook, int stages) {
   std::vector<double> segments;
@@ -168,10 +210,12 @@ void countOrgans(BacktestOfPlant& result, const Outlook& outlook, int stages) {
     segments.push_back(organs.segments);
     leaves.push_back(organs.leaves);
   }
-  const auto fill = [](ForetoldCount& count, const std::vector<double>& values) {
-    count.foretold = medianOf(values);
-    count.low = quantileOf(values, 0.05);
-    count.high = quantileOf(values, 0.95);
+  const auto fill = [](ForetoldCount& count, std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    for (const double v : values) count.mean += v / static_cast<double>(values.size());
+    count.foretold = leastPercentage(values);
+    std::tie(count.low, count.high) = holdingNinety(values);
+    for (const double v : values) count.chance += std::abs(v - count.foretold) / static_cast<double>(values.size());
   };
   fill(result.newSegments, segments);
   fill(result.newLeaves, leaves);
@@ -204,6 +248,22 @@ void addThesisCounts(BacktestOfPlant& result, const Measurements& m, const std::
 
 double widened(double miss, std::size_t samples) { return kNinety * miss * (samples < 2 ? 2 : 1 + 1.5 / static_cast<double>(samples - 1)); }
 
+/// How much longer an arm is than the usual branch, told by how it leans among its sisters.
+double armFactor(const OrderOutlook& bearer, const OrderOutlook& own, const MeasuredPlant& late, SegmentId child) {
+  const Measurements& m = *late.measurements;
+  const Segment& node = m.at(*m.at(child).parent);
+  int axes = 0;
+  std::size_t before = 0;
+  for (const SegmentId sister : node.children) {
+    if (late.structure->at(sister).axis == late.structure->at(*m.at(child).parent).axis) continue;
+    ++axes;
+    before += m.at(sister).rotr.radians() < m.at(child).rotr.radians() ? 1 : 0;
+  }
+  const auto arms = bearer.arms.find(axes);
+  if (arms == bearer.arms.end() || own.start == StartRule::Usual) return 1;
+  return arms->second[std::min(before, arms->second.size() - 1)].ratio / own.bearerRatio;
+}
+
 void compareLengths(BacktestOfPlant& result, const Outlook& outlook, const MeasuredPlant& early, const MeasuredPlant& late, const std::vector<RuleTemplate>& templates) {
   const Measurements& m = *early.measurements;
   const auto match = Matcher(m, *early.structure, *late.measurements, *late.structure).matched();
@@ -226,8 +286,8 @@ void compareLengths(BacktestOfPlant& result, const Outlook& outlook, const Measu
       if (thesis != nullptr && !thesis->children.empty()) length.thesis = middleOf(length.first ? thesis->children.front().length : thesis->children.back().length);
       if (length.first) {
         const OrderOutlook& o = outlook.of(length.order);
-        length.foretold = o.followsBearer ? o.bearerRatio * m.at(own).length : o.usualLength;
-        const double reach = widened(o.startMiss, o.schedule.axes);
+        length.foretold = o.firstLength(m.at(own).length, outlook.levels[s]) * armFactor(outlook.of(length.order - 1), o, late, child);
+        const double reach = widened(o.startMiss, o.starts);
         length.low = length.foretold * std::exp(-reach);
         length.high = length.foretold * std::exp(reach);
       } else if (const auto tip = tips.find(own); tip != tips.end()) {
@@ -263,7 +323,7 @@ BacktestOfPlant tested(const Outlook& outlook, const Measurements& early, const 
   countOrgans(result, outlook, stages);
   result.newSegments.truth = static_cast<double>(late.segments.size()) - static_cast<double>(early.segments.size());
   result.newLeaves.truth = static_cast<double>(leavesOf(late)) - static_cast<double>(leavesOf(early));
-  const Organs last = lastStage(early, outlook.statistics.schedule.plants.front(), stages);
+  const Organs last = lastStage(early, outlook.statistics.schedule.plants[outlook.plant], stages);
   result.newSegments.repeated = last.segments;
   result.newLeaves.repeated = last.leaves;
   addThesisCounts(result, early, templates);
@@ -316,6 +376,21 @@ BacktestSkill skillOf(const std::vector<BacktestOfPlant>& plants, const std::vec
     }
     countCovered.add(within(plant.newSegments.low, plant.newSegments.high, plant.newSegments.truth) ? 1 : 0);
   }
+  const auto together = [&plants](double ForetoldCount::*by) {
+    double foretold = 0, truth = 0;
+    for (const BacktestOfPlant& plant : plants) {
+      foretold += plant.newSegments.*by + plant.newLeaves.*by;
+      truth += plant.newSegments.truth + plant.newLeaves.truth;
+    }
+    return truth > 0 ? std::abs(foretold - truth) / truth : 0;
+  };
+  skill.togetherError = together(&ForetoldCount::mean);
+  skill.togetherErrorRepeated = together(&ForetoldCount::repeated);
+  skill.togetherErrorThesis = together(&ForetoldCount::thesis);
+  Mean chance;
+  for (const BacktestOfPlant& plant : plants)
+    if (const double truth = plant.newSegments.truth + plant.newLeaves.truth; truth > 0) chance.add((plant.newSegments.chance + plant.newLeaves.chance) / truth);
+  skill.newErrorByChance = chance.value();
   skill.lengthError = length.value();
   skill.lengthErrorRepeated = repeated.value();
   skill.lengthErrorThesis = thesis.value();
@@ -334,21 +409,21 @@ Result<Backtest> testedAll(const std::vector<Measurements>& early, const std::ve
   Backtest result;
   result.notes = std::move(notes);
   std::vector<double> organs;
+  const auto ready = prepared(early);
+  if (!ready) return ready.failure();
+  const std::vector<Outlook> outlooks = outlooksOf(*ready);
   for (std::size_t p = 0; p < early.size(); ++p) {
-    // Each plant is foretold as the first of its kind.
-    std::vector<Measurements> plants{early[p]};
-    for (std::size_t q = 0; q < early.size(); ++q)
-      if (q != p) plants.push_back(early[q]);
-    const auto outlook = outlookOf(plants);
-    if (!outlook) return outlook.failure();
-    result.plants.push_back(tested(*outlook, early[p], late[p], stages));
+    result.plants.push_back(tested(outlooks[p], early[p], late[p], stages));
     result.plants.back().plant = numbers[p];
     organs.push_back(static_cast<double>(early[p].segments.size() + leavesOf(early[p])));
-    if (p == 0)
-      for (const std::string& warning : outlook->statistics.warnings) result.notes.push_back(warning);
   }
+  for (const std::string& warning : outlooks.front().statistics.warnings) result.notes.push_back(warning);
   result.skill = skillOf(result.plants, organs);
   return result;
+}
+
+bool showsGrowth(const Measurements& m) {
+  return std::any_of(m.segments.begin(), m.segments.end(), [](const Segment& s) { return !s.children.empty(); });
 }
 
 Failure badStages(int stages) { return fail(ErrorCode::BadInput, std::to_string(stages) + " stages cannot be cut off; give 1 or more"); }
@@ -396,8 +471,7 @@ Result<Backtest> backtest(std::span<const Measurements> given, int stages) {
   std::vector<std::size_t> numbers;
   for (std::size_t p = 0; p < plants->size(); ++p) {
     auto cut = withoutYoungest((*plants)[p], schedule.plants[p], stages);
-    const bool shows = cut && std::any_of(cut->segments.begin(), cut->segments.end(), [](const Segment& s) { return !s.children.empty(); });
-    if (!shows) {
+    if (!cut || !showsGrowth(*cut)) {
       notes.push_back("plant " + std::to_string(p + 1) + " is too small to cut " + std::to_string(stages) + (stages == 1 ? " stage" : " stages") + " off; it was left out");
       continue;
     }
@@ -421,6 +495,8 @@ Result<Backtest> backtest(std::span<const Measurements> earlier, std::span<const
   const auto half = same->begin() + static_cast<std::ptrdiff_t>(earlier.size());
   std::vector<std::size_t> numbers;
   for (std::size_t p = 0; p < earlier.size(); ++p) numbers.push_back(p);
+  if (std::none_of(earlier.begin(), earlier.end(), showsGrowth))
+    return fail(ErrorCode::NoAnswer, "nothing can be foretold: no segment of the earlier plants has a child, so nothing shows how they go on; measure them with more nodes");
   return testedAll({same->begin(), half}, {half, same->end()}, numbers, stages, std::move(notes));
 }
 

@@ -29,12 +29,14 @@ struct ForetoldLength {
 };
 
 struct ForetoldCount {
-  double foretold = 0;    ///< median
-  double low = 0;         ///< 5 and 95 % of the grown plants
+  double foretold = 0;    ///< the number of least mean percentage error against the grown plants
+  double mean = 0;        ///< of the grown plants
+  double low = 0;         ///< whole numbers that hold 90 % of the grown plants, as nearly as whole numbers can
   double high = 0;
   double truth = 0;
   double repeated = 0;
   double thesis = 0;
+  double chance = 0;      ///< mean miss of the grown plants themselves: what no forecast of such plants can do better than
 };
 
 struct BacktestOfPlant {
@@ -51,6 +53,8 @@ struct BacktestSkill {
   double lengthError = 0, lengthErrorRepeated = 0, lengthErrorThesis = 0;
   double countError = 0, countErrorRepeated = 0, countErrorThesis = 0;   ///< of all organs of a plant, earlier and new: mean over plants of |foretold - true| / true
   double newError = 0, newErrorRepeated = 0, newErrorThesis = 0;         ///< of the new organs alone
+  double newErrorByChance = 0;       ///< of the new organs, of the grown plants themselves: no forecast of single plants can do much better
+  double togetherError = 0, togetherErrorRepeated = 0, togetherErrorThesis = 0;  ///< of the new organs of all plants together
   double lengthCoverage = 0;
   double countCoverage = 0;
   std::size_t lengths = 0;

@@ -2,6 +2,7 @@
 
 #include "base/text.hpp"
 #include "quantify/phyllotaxis.hpp"
+#include "quantify/plant_nodes.hpp"
 #include "quantify/structure.hpp"
 #include "quantify/tree_edit.hpp"
 
@@ -14,27 +15,6 @@ namespace axil::quantify {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// Node 0 is the root, node s + 1 the tip of segment s.
-std::vector<glm::dvec3> nodesOf(const Measurements& m) {
-  std::vector<glm::dvec3> nodes{m.origin.at};
-  for (const Segment& s : m.segments) nodes.push_back((s.parent ? nodes[at(s.parent->value) + 1] : m.origin.at) + s.direction.unit() * s.length);
-  return nodes;
-}
-
-struct Box {
-  glm::dvec3 low, high;
-};
-Box boxOf(const std::vector<glm::dvec3>& nodes) {
-  Box box{nodes.front(), nodes.front()};
-  for (const glm::dvec3& n : nodes) box = {glm::min(box.low, n), glm::max(box.high, n)};
-  return box;
-}
-double heightOf(const std::vector<glm::dvec3>& nodes) {
-  const Box box = boxOf(nodes);
-  const glm::dvec3 size = box.high - box.low;
-  return std::max(size.y, 0.1 * std::max({size.x, size.y, size.z}));
-}
 
 // ---- nodes -----------------------------------------------------------------------------------------------------------
 
@@ -209,42 +189,6 @@ double overlap(const Measurements& a, const Measurements& b, SilhouetteView view
   return either == 0 ? 1 : static_cast<double>(both) / static_cast<double>(either);
 }
 
-// ---- sets ------------------------------------------------------------------------------------------------------------
-
-struct Samples {
-  std::vector<double> length, bend, insertion, branches, axisSegments, plantSegments, leaves;
-};
-Samples samplesOf(std::span<const Measurements> plants, double unit) {
-  Samples all;
-  for (const Measurements& m : plants) {
-    const PlantStructure structure = plantStructure(m);
-    std::size_t leaves = m.rootLeaves.size();
-    for (std::size_t s = 0; s < m.segments.size(); ++s) {
-      const SegmentPlace& place = structure.places[s];
-      all.length.push_back(m.segments[s].length / unit);
-      leaves += m.segments[s].leaves.size();
-      if (place.goesOn) all.branches.push_back(place.branches);
-      if (!m.segments[s].parent) continue;
-      (place.rank > 0 ? all.bend : all.insertion).push_back(m.segments[s].rotr.radians());
-    }
-    for (const Axis& axis : structure.axes) all.axisSegments.push_back(static_cast<double>(axis.segments.size()));
-    all.plantSegments.push_back(static_cast<double>(m.segments.size()));
-    all.leaves.push_back(static_cast<double>(leaves));
-  }
-  return all;
-}
-
-/// Kolmogorov's distribution: the chance of a distance as large, with Stephens' correction for small samples.
-double chanceOf(double ks, double n) {
-  const double x = ks * (std::sqrt(n) + 0.12 + 0.11 / std::sqrt(n));
-  if (x < 0.2) return 1;
-  double sum = 0;
-  for (int k = 1; k <= 100; ++k) sum += (k % 2 == 1 ? 2 : -2) * std::exp(-2.0 * k * k * x * x);
-  return std::clamp(sum, 0.0, 1.0);
-}
-
-constexpr double kSame = 1e-9;  // lengths as shares of a height, radians: what differs by less differs by rounding alone
-
 }  // namespace
 
 Result<PlantComparison> comparePlants(const Measurements& a, const Measurements& b, const CompareOptions& options) {
@@ -261,47 +205,6 @@ Result<PlantComparison> comparePlants(const Measurements& a, const Measurements&
   if (a.segments.size() * b.segments.size() <= options.mostPairs) result.treeEdit = treeEditDistance(a, b);
   for (const SilhouetteView view : options.views) result.silhouettes.push_back(overlap(a, b, view, result.height, options.silhouette_cells));
   return result;
-}
-
-DistributionDistance distanceOf(std::string quantity, std::vector<double> a, std::vector<double> b) {
-  DistributionDistance d;
-  d.quantity = std::move(quantity);
-  d.samplesA = a.size();
-  d.samplesB = b.size();
-  if (a.empty() || b.empty()) return d;
-  std::sort(a.begin(), a.end());
-  std::sort(b.begin(), b.end());
-  d.meanA = std::accumulate(a.begin(), a.end(), 0.0) / static_cast<double>(a.size());
-  d.meanB = std::accumulate(b.begin(), b.end(), 0.0) / static_cast<double>(b.size());
-  std::size_t i = 0;
-  std::size_t j = 0;
-  double last = std::min(a.front(), b.front());
-  while (i < a.size() || j < b.size()) {
-    const double x = i == a.size() ? b[j] : j == b.size() ? a[i] : std::min(a[i], b[j]);
-    const double apart = std::abs(static_cast<double>(i) / static_cast<double>(a.size()) - static_cast<double>(j) / static_cast<double>(b.size()));
-    d.wasserstein += apart * (x - last);
-    last = x;
-    while (i < a.size() && a[i] <= x + kSame) ++i;
-    while (j < b.size() && b[j] <= x + kSame) ++j;
-    d.ks = std::max(d.ks, std::abs(static_cast<double>(i) / static_cast<double>(a.size()) - static_cast<double>(j) / static_cast<double>(b.size())));
-  }
-  const double n = static_cast<double>(a.size()) * static_cast<double>(b.size()) / static_cast<double>(a.size() + b.size());
-  d.p = chanceOf(d.ks, n);
-  return d;
-}
-
-Result<std::vector<DistributionDistance>> compareSets(std::span<const Measurements> a, std::span<const Measurements> b) {
-  if (a.empty() || b.empty()) return fail(ErrorCode::BadInput, "a set has no plant; give at least one on either side");
-  double unit = 0;
-  for (const Measurements& m : a) unit += heightOf(nodesOf(m)) / static_cast<double>(a.size());
-  Samples x = samplesOf(a, unit);
-  Samples y = samplesOf(b, unit);
-  std::vector<DistributionDistance> all;
-  const std::pair<const char*, std::vector<double> Samples::*> rows[] = {{"length", &Samples::length}, {"bend", &Samples::bend}, {"insertion", &Samples::insertion},
-                                                                          {"branches", &Samples::branches}, {"axis_segments", &Samples::axisSegments},
-                                                                          {"plant_segments", &Samples::plantSegments}, {"leaves", &Samples::leaves}};
-  for (const auto& [name, values] : rows) all.push_back(distanceOf(name, std::move(x.*values), std::move(y.*values)));
-  return all;
 }
 
 }  // namespace axil::quantify

@@ -7,8 +7,9 @@
 /// segments: the fewest insertions, deletions and changes of kind (goes on, branches off), each costing 1, such that separate subtrees stay
 /// separate; it takes time in O(|A| |B| d log d) for nodes of degree d, and is left out above a stated number of pairs. *Silhouettes* are drawn
 /// orthographically on one grid; IoU is the share of covered cells that both cover. Lengths in A's unit; the plants are compared where they stand.
-/// Sets are compared by distribution: the Kolmogorov-Smirnov distance with its asymptotic p, and the first Wasserstein distance.
-/// Sources: Zhang 1996 (constrained edit distance between unordered trees); Kuhn 1955 (assignment); Smirnov 1948.
+/// Sets are compared by distribution: the Kolmogorov-Smirnov distance and the first Wasserstein distance. Segments of one plant are not independent samples, so p is
+/// found by exchanging whole plants between the sets, 999 times at most, seeded; and one p says whether any of the quantities differs (the least p against the least p of exchanged sets).
+/// Sources: Zhang 1996 (constrained edit distance between unordered trees); Kuhn 1955 (assignment); Smirnov 1948; Westfall and Young 1993 (resampling, several tests).
 
 #include "base/result.hpp"
 #include "quantify/types.hpp"
@@ -53,17 +54,25 @@ struct PlantComparison {
 
 /// Distance between the distributions of one quantity in two sets of plants.
 struct DistributionDistance {
-  std::string quantity;        ///< "length", "bend", "insertion", "branches", "axis_segments", "plant_segments", "leaves"
+  std::string quantity;        ///< "length", "bend", "insertion", "branches", "axis_segments", "plant_segments", "leaves", "leaf_length"
   std::size_t samplesA = 0, samplesB = 0;
   double meanA = 0, meanB = 0;
   double ks = 0;               ///< largest distance of the two empirical distribution functions
-  double p = 1;                ///< that one distribution gives so large a one
+  double p = 1;                ///< that sets of one kind of plant differ as much: of the exchanges, else as below
+  double pIndependent = 1;     ///< by Kolmogorov's distribution, as if all samples were independent: too small where a plant's samples are alike
   double wasserstein = 0;      ///< in the quantity's unit
 };
-/// Lengths as shares of the mean height of set A. Fails with BadInput where a set is empty.
-[[nodiscard]] Result<std::vector<DistributionDistance>> compareSets(std::span<const Measurements> a, std::span<const Measurements> b);
 
-/// The distance alone, and p, of two samples.
+struct SetComparison {
+  std::vector<DistributionDistance> distances;
+  double p = 1;                ///< that no quantity differs
+  std::size_t exchanges = 0;   ///< that p stands on; 0: too few plants to exchange, p is of independent samples, times the number of tests
+};
+
+/// Lengths as shares of the mean height of set A. Fails with BadInput where a set is empty, and where units differ.
+[[nodiscard]] Result<SetComparison> compareSets(std::span<const Measurements> a, std::span<const Measurements> b);
+
+/// The distance alone, and p of independent samples.
 [[nodiscard]] DistributionDistance distanceOf(std::string quantity, std::vector<double> a, std::vector<double> b);
 
 }  // namespace axil::quantify

@@ -1,11 +1,12 @@
 #include "quantify/family.hpp"
 
+#include "quantify/arms.hpp"
 #include "quantify/circular.hpp"
 #include "quantify/estimate.hpp"
+#include "quantify/prepared.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -13,100 +14,8 @@ namespace axil::quantify {
 
 namespace {
 
-constexpr std::size_t kTableSize = 24;
 constexpr std::size_t kEnoughAxes = 12;   // for an order to have rules of its own
 constexpr std::size_t kTested = 8;        // fewer samples contradict nothing
-constexpr double kLilliefors = 0.805;     // 10 % bound of sqrt(n) D, of a normal distribution with estimated mean and deviation
-constexpr double kApart = 2.5;            // deviations between arms that differ
-
-struct Moments {
-  double mean = 0;
-  double deviation = 0;
-};
-Moments momentsOf(const std::vector<double>& values) {
-  Moments m;
-  if (values.empty()) return m;
-  for (const double v : values) m.mean += v;
-  m.mean /= static_cast<double>(values.size());
-  double sum = 0;
-  for (const double v : values) sum += (v - m.mean) * (v - m.mean);
-  if (values.size() > 1) m.deviation = std::sqrt(sum / static_cast<double>(values.size() - 1));
-  return m;
-}
-
-/// sqrt(n) times the greatest distance between the samples' distribution and `below`. `sorted` ascending.
-double distanceTo(const std::vector<double>& sorted, const std::function<double(double)>& below) {
-  const double n = static_cast<double>(sorted.size());
-  double worst = 0;
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const double f = below(sorted[i]);
-    worst = std::max({worst, std::abs(static_cast<double>(i + 1) / n - f), std::abs(f - static_cast<double>(i) / n)});
-  }
-  return worst * std::sqrt(n);
-}
-
-std::vector<double> quantiles(const std::vector<double>& sorted) {
-  if (sorted.size() <= kTableSize) return sorted;
-  std::vector<double> table;
-  for (std::size_t i = 0; i < kTableSize; ++i) table.push_back(quantileOf(sorted, (static_cast<double>(i) + 0.5) / kTableSize));
-  return table;
-}
-
-}  // namespace
-
-Distribution distributionOf(std::vector<double> values) {
-  Distribution d;
-  d.samples = values.size();
-  if (values.empty()) return d;
-  std::sort(values.begin(), values.end());
-  const Moments m = momentsOf(values);
-  d.centre = m.mean;
-  const double size = std::max(std::abs(values.front()), std::abs(values.back()));
-  if (m.deviation <= 1e-4 * size || values.size() < 2) return d;
-  d.spread = m.deviation;
-  const auto normal = [&](double x) { return 0.5 * std::erfc(-(x - m.mean) / (m.deviation * std::numbers::sqrt2)); };
-  const bool clear = values.front() < 0 || m.mean > 3.5 * m.deviation;
-  if (clear && (values.size() < kTested || distanceTo(values, normal) < kLilliefors)) {
-    d.form = Distribution::Form::Normal;
-    return d;
-  }
-  // The ends of an even distribution lie a little beyond the samples'.
-  const double beyond = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
-  const double low = values.front() - (values.front() < beyond && values.front() >= 0 ? 0 : beyond);
-  const double high = values.back() + beyond;
-  const auto even = [&](double x) { return (x - low) / (high - low); };
-  if (values.size() >= kTested && distanceTo(values, even) < kLilliefors) {
-    d.form = Distribution::Form::Even;
-    d.centre = (low + high) / 2;
-    d.spread = (high - low) / 2;
-    return d;
-  }
-  d.form = Distribution::Form::Table;
-  d.values = quantiles(values);
-  return d;
-}
-
-Distribution countsOf(std::vector<double> values) {
-  Distribution d;
-  d.samples = values.size();
-  if (values.empty()) return d;
-  std::sort(values.begin(), values.end());
-  const Moments m = momentsOf(values);
-  d.centre = m.mean;
-  if (values.front() == values.back()) return d;
-  d.spread = m.deviation;
-  d.form = Distribution::Form::Table;
-  // Quantiles of whole numbers are whole.
-  if (values.size() > kTableSize) {
-    std::vector<double> table;
-    for (std::size_t i = 0; i < kTableSize; ++i) table.push_back(values[(2 * i + 1) * values.size() / (2 * kTableSize)]);
-    values = std::move(table);
-  }
-  d.values = std::move(values);
-  return d;
-}
-
-namespace {
 
 /// One axis and what it could have made.
 struct AxisCase {
@@ -126,6 +35,7 @@ class FamilyMaker {
     family_.plants = plants_.size();
     setAges();
     setGroups();
+    setArmPlaces();
     for (std::size_t g = 0; g < family_.orders.size(); ++g) setExtent(g);
     for (std::size_t g = 0; g < family_.orders.size(); ++g) {
       FamilyOrder& o = family_.orders[g];
@@ -158,12 +68,8 @@ class FamilyMaker {
     return g;
   }
 
-  /// Stages of each plant. Where most plants are of one age and none is older, smaller ones have ended early.
   void setAges() {
-    double most = 0, oldest = 0;
-    for (const PlantSchedule& plant : schedule().plants) most = std::max(most, plant.now + 1);
-    for (const PlantSchedule& plant : schedule().plants) oldest += plant.now + 1.5 > most ? 1 : 0;
-    for (const PlantSchedule& plant : schedule().plants) ages_.push_back(2 * oldest >= static_cast<double>(plants_.size()) ? most : plant.now + 1);
+    for (const PlantSchedule& plant : schedule().plants) ages_.push_back(plant.now + 1);
   }
 
   void setGroups() {
@@ -312,9 +218,8 @@ class FamilyMaker {
   void setFates(std::size_t g) {
     FamilyOrder& o = family_.orders[g];
     const int delay = g + 1 < family_.orders.size() ? family_.orders[g + 1].delay : o.delay;
-    double decided = 0, ended = 0;
-    std::map<int, double> ends, counts;
-    std::vector<std::pair<int, int>> nodes;  // rank, branches
+    std::map<int, double> ends;
+    std::vector<NodeFate> nodes;
     eachCase(g, [&](const AxisCase& c) {
       ++o.axes;
       o.segments += c.axis->segments.size();
@@ -323,62 +228,22 @@ class FamilyMaker {
         const SegmentPlace& place = structure.at(s);
         const double left = c.potential - place.rank - 1;
         o.insertions += static_cast<std::size_t>(place.branches);
-        if (o.extent == Extent::Stages && left >= 1) {
-          decided += 1;
-          ended += place.goesOn ? 0 : 1;
+        if (o.extent == Extent::Own && !place.goesOn) {
+          // Where the measured plants stop at their highest order, axes have not ended for good.
+          if (c.axis->order + 1 < structure.orders || o.lastOrder == o.order) ends[place.branches] += 1;
+          continue;
         }
-        if (!place.goesOn && (o.extent == Extent::Own || left >= 1)) {
-          const bool cut = o.extent == Extent::Own && c.axis->order + 1 >= structure.orders && o.lastOrder > o.order;
-          if (!cut) ends[place.branches] += 1;
-        }
-        if (!place.goesOn || (o.extent == Extent::Stages && left - delay < 1)) continue;
-        counts[place.branches] += 1;
-        nodes.emplace_back(place.rank, place.branches);
+        // Too young to branch, or to have ended beyond doubt.
+        if (o.extent == Extent::Stages && left - delay < 1) continue;
+        nodes.push_back({place.rank, place.goesOn, place.branches});
       }
     });
     o.nodes = nodes.size();
-    if (decided > 0) o.ending = ended / decided;
+    o.fates = fateTableOf(nodes);
     double sum = 0;
     for (const auto& [arms, count] : ends) sum += count;
     for (const auto& [arms, count] : ends) o.ends.push_back({arms, count / sum});
     if (o.ends.empty()) o.ends = {{0, 1}};
-    o.branches = {1};
-    if (nodes.empty()) return;
-    o.branches.assign(static_cast<std::size_t>(counts.rbegin()->first) + 1, 0);
-    for (const auto& [k, count] : counts) o.branches[static_cast<std::size_t>(k)] = count / static_cast<double>(nodes.size());
-    setByRank(o, nodes, g);
-  }
-
-  void setByRank(FamilyOrder& o, const std::vector<std::pair<int, int>>& nodes, std::size_t g) {
-    const double share = 1 - o.branches.front();
-    if (share <= 0 || share >= 1) return;
-    const auto period = [&]() {
-      for (int order = o.order; order <= o.lastOrder; ++order)
-        if (const auto& p = outlook_.statistics.patterns[static_cast<std::size_t>(order)]; g == groupOf(order) && p.habit == BranchingHabit::EveryKth) return p.period;
-      return 0;
-    }();
-    int last = 0;
-    for (const auto& [rank, branches] : nodes) last = std::max(last, rank);
-    const int size = period > 1 ? period : last + 1;
-    std::vector<double> there(static_cast<std::size_t>(size), 0), with(static_cast<std::size_t>(size), 0);
-    for (const auto& [rank, branches] : nodes) {
-      there[static_cast<std::size_t>(rank % size)] += 1;
-      with[static_cast<std::size_t>(rank % size)] += branches > 0 ? 1 : 0;
-    }
-    if (period > 1) {
-      o.periodic = true;
-    } else {
-      double deviance = 0, ranks = 0;
-      const auto term = [](double seen, double expected) { return seen > 0 ? 2 * seen * std::log(seen / expected) : 0; };
-      for (std::size_t r = 0; r < there.size(); ++r) {
-        if (there[r] == 0) continue;
-        ranks += 1;
-        deviance += term(with[r], there[r] * share) + term(there[r] - with[r], there[r] * (1 - share));
-      }
-      if (ranks < 2 || deviance - (ranks - 1) < 3 * std::sqrt(2 * (ranks - 1))) return;
-    }
-    // Half an observation of the whole keeps ranks that were seldom seen from being certain.
-    for (std::size_t r = 0; r < there.size(); ++r) o.byRank.push_back(there[r] >= kTested && (with[r] == 0 || with[r] == there[r]) ? with[r] / there[r] : (with[r] + 0.5 * share) / (there[r] + 0.5));
   }
 
   // ---- lengths -----------------------------------------------------------------------------------------------------------
@@ -463,41 +328,81 @@ class FamilyMaker {
     return levelOf(c) + std::log(o.step) * rank;
   }
 
+  /// Where each axis that is an arm stands among its sisters.
+  void setArmPlaces() {
+    for (std::size_t g = 0; g < family_.orders.size(); ++g)
+      for (const Arms& arms : armsOf(plants_, family_.orders[g].order, family_.orders[g].lastOrder))
+        for (std::size_t a = 0; a < arms.members.size(); ++a)
+          for (const ArmMember& member : arms.members[a]) armOf_[{member.plant, member.base}] = {g, arms.count, a};
+  }
+  struct ArmPlace {
+    std::size_t bearers = 0;   ///< group of what bears it
+    int count = 0;             ///< 0: no arm
+    std::size_t arm = 0;
+    friend auto operator<=>(const ArmPlace&, const ArmPlace&) = default;
+  };
+  [[nodiscard]] ArmPlace armOf(const AxisCase& c) const {
+    const auto found = armOf_.find({c.plant, c.axis->base()});
+    return found == armOf_.end() ? ArmPlace{} : found->second;
+  }
+
   void setStart(std::size_t g) {
     FamilyOrder& o = family_.orders[g];
-    std::vector<double> own, ratio, trunks;
+    std::vector<double> own, trunks;
+    std::map<ArmPlace, std::vector<double>> ratios, levels;
     double segments = 0;
+    std::size_t borne = 0;
     eachCase(g, [&](const AxisCase& c) {
       if (!c.axis->bearer && o.lastOrder > 0) {
         trunks.push_back(levelOf(c));
         if (o.order == 0) return;
       }
       own.push_back(levelOf(c));
+      levels[armOf(c)].push_back(own.back());
       segments += c.count();
-      if (c.axis->bearer) ratio.push_back(own.back() - lengthAt(cases_[c.plant][static_cast<std::size_t>(c.axis->parent->value)], static_cast<int>(c.bearerRank)));
+      if (!c.axis->bearer) return;
+      ++borne;
+      ratios[armOf(c)].push_back(own.back() - lengthAt(cases_[c.plant][static_cast<std::size_t>(c.axis->parent->value)], static_cast<int>(c.bearerRank)));
     });
     if (g == 0) family_.firstLength = std::exp(centreOf(trunks.empty() ? own : trunks).value);
-    if (own.empty()) own = trunks;
+    if (own.empty()) {
+      own = trunks;
+      levels[{}] = own;
+    }
     const Centre centre = centreOf(own);
     o.usual = std::exp(centre.value);
-    std::vector<double> logs = own;
-    if (ratio.size() == own.size() && !ratio.empty() && (ratio.size() == 1 || centreOf(ratio).deviation < 0.95 * centre.deviation)) {
-      o.startsFromBearer = true;
-      logs = ratio;
-    }
+    o.startsFromBearer = borne == own.size() && borne > 0 && (borne == 1 || deviationWithin(ratios) < 0.95 * deviationWithin(levels));
+    const auto& logs = o.startsFromBearer ? ratios : levels;
     const double middle = o.startsFromBearer ? 0 : centre.value;
-    const Moments m = momentsOf(logs);
     // A level measured on few segments varies with them.
     double keep = alike_[g] ? 0 : 1;
-    if (!o.followsBelow && m.deviation > 0 && keep > 0) {
+    if (const double spread = deviationWithin(logs); !o.followsBelow && spread > 0 && keep > 0) {
       const double noise = residual_[g] * residual_[g] * static_cast<double>(own.size()) / segments;
-      keep = std::sqrt(std::max(0.0, 1 - noise / (m.deviation * m.deviation)));
+      keep = std::sqrt(std::max(0.0, 1 - noise / (spread * spread)));
     }
-    if (alike_[g] && !o.startsFromBearer) o.usual = std::exp(m.mean);
-    std::vector<double> factors;
-    for (const double l : logs) factors.push_back(std::exp(m.mean + keep * (l - m.mean) - middle));
-    if (alike_[g] && !o.startsFromBearer) factors.assign(1, 1);
-    o.start = distributionOf(factors);
+    std::vector<double> all;
+    for (const auto& [place, values] : logs) {
+      const double mean = momentsOf(values).mean;
+      std::vector<double> factors;
+      for (const double l : values) factors.push_back(std::exp(mean + keep * (l - mean) - middle));
+      all.insert(all.end(), factors.begin(), factors.end());
+      if (place.count > 0) family_.orders[place.bearers].arms.at(place.count)[place.arm].start = distributionOf(std::move(factors));
+    }
+    if (alike_[g] && !o.startsFromBearer && armOf_.empty()) {
+      o.usual = std::exp(momentsOf(own).mean);
+      all.assign(1, 1);
+    }
+    o.start = distributionOf(std::move(all));
+  }
+  /// Around the mean of each arm.
+  static double deviationWithin(const std::map<ArmPlace, std::vector<double>>& groups) {
+    double squares = 0, freedom = 0;
+    for (const auto& [place, values] : groups) {
+      const double n = static_cast<double>(values.size());
+      squares += (n - 1) * std::pow(momentsOf(values).deviation, 2);
+      freedom += n - 1;
+    }
+    return freedom > 0 ? std::sqrt(squares / freedom) : 0;
   }
 
   // ---- angles ------------------------------------------------------------------------------------------------------------
@@ -505,7 +410,6 @@ class FamilyMaker {
   void setAngles(std::size_t g) {
     FamilyOrder& o = family_.orders[g];
     std::vector<double> bends, sides, insertions;
-    std::map<int, std::vector<std::vector<double>>> arms;
     eachCase(g, [&](const AxisCase& c) {
       const Measurements& m = *plants_[c.plant].measurements;
       const PlantStructure& structure = *plants_[c.plant].structure;
@@ -515,14 +419,8 @@ class FamilyMaker {
           bends.push_back(m.at(s).rotr.radians());
           if (bends.back() > 0.2 * std::numbers::pi / 180) sides.push_back(m.at(s).rotu.radians());
         }
-        std::vector<double> here;
         for (const SegmentId child : m.at(s).children)
-          if (structure.at(child).axis != structure.at(s).axis) here.push_back(m.at(child).rotr.radians());
-        insertions.insert(insertions.end(), here.begin(), here.end());
-        std::sort(here.begin(), here.end());
-        auto& sorted = arms[static_cast<int>(here.size())];
-        sorted.resize(here.size());
-        for (std::size_t a = 0; a < here.size(); ++a) sorted[a].push_back(here[a]);
+          if (structure.at(child).axis != structure.at(s).axis) insertions.push_back(m.at(child).rotr.radians());
       }
     });
     o.bend = distributionOf(bends);
@@ -531,16 +429,12 @@ class FamilyMaker {
     o.side = side.mean;
     o.sideDeviation = side.deviation;
     o.insertion = distributionOf(insertions);
-    for (const auto& [count, sorted] : arms) {
-      if (count < 2 || sorted.front().size() < 4) continue;
-      bool apart = false;
-      for (std::size_t a = 1; a < sorted.size(); ++a) {
-        const Moments low = momentsOf(sorted[a - 1]), high = momentsOf(sorted[a]);
-        apart = apart || high.mean - low.mean > kApart * std::max(1e-3, std::hypot(low.deviation, high.deviation) / std::numbers::sqrt2);
+    for (const Arms& arms : armsOf(plants_, o.order, o.lastOrder))
+      for (const auto& members : arms.members) {
+        std::vector<double> leans;
+        for (const ArmMember& member : members) leans.push_back(plants_[member.plant].measurements->at(member.base).rotr.radians());
+        o.arms[arms.count].push_back({distributionOf(std::move(leans)), {}});
       }
-      if (!apart) continue;
-      for (const auto& values : sorted) o.arms[count].push_back(distributionOf(values));
-    }
   }
 
   // ---- bodies ------------------------------------------------------------------------------------------------------------
@@ -590,21 +484,15 @@ class FamilyMaker {
   std::vector<double> ages_;                   ///< of each plant, stages
   std::map<std::size_t, bool> alike_;          ///< axes of a group share one level
   std::map<std::size_t, double> residual_;
+  std::map<std::pair<std::size_t, SegmentId>, ArmPlace> armOf_;
 };
 
 }  // namespace
 
 Result<Family> familyOf(std::span<const Measurements> given) {
-  std::vector<std::string> known;  // the outlook's statistics have warned already
-  auto outlook = anyOutlookOf(given);
-  if (!outlook) return outlook.failure();
-  const auto plants = inOneUnit(given, known);
-  if (!plants) return plants.failure();
-  std::vector<PlantStructure> structures;
-  for (const Measurements& m : *plants) structures.push_back(plantStructure(m));
-  std::vector<MeasuredPlant> measured;
-  for (std::size_t p = 0; p < plants->size(); ++p) measured.push_back({&(*plants)[p], &structures[p]});
-  return FamilyMaker(measured, std::move(*outlook)).made();
+  const auto ready = prepared(given);
+  if (!ready) return ready.failure();
+  return FamilyMaker(ready->measured, outlookOf(*ready)).made();
 }
 
 }  // namespace axil::quantify

@@ -5,14 +5,15 @@
 /// An axis makes segment after segment. How many it may make (`left` before it starts) is either what *stages* leave it, as long as its bearer still may less a
 /// delay, each node ending it with some chance; or a number of its *own*, drawn from those measured, or from a line along its bearer (how much that had left, or the
 /// rank it stands at) with the misses around it. The choice between lines is by the Bayesian information criterion; stages where schedule.hpp finds steady growth.
-/// Nodes branch with a share, by rank where ranks differ by more than chance. Lengths follow a level that falls or grows along the axis, or the segment below.
+/// Nodes branch, fork and end with shares, by rank where ranks differ by more than chance (fates.hpp). Lengths follow a level that falls or grows along the axis, or the segment below.
 /// A *distribution* is a number, normal, even, or else a table of measured quantiles: the simplest that the samples do not contradict (Kolmogorov's distance
-/// with Lilliefors' 10 % bound). Arms of a fork that differ by more than chance are told apart, the least bent first.
+/// with Lilliefors' 10 % bound). Arms of a fork that differ by more than chance are told apart (arms.hpp), each with its own lean and length.
 ///
 /// Samples of all plants count alike here: the family is what a randomly met axis or node is like. Orders of few axes share the rules of the order below.
 /// Sources: Schwarz 1978 (BIC); Lilliefors 1967; the statistical structured form is future work of L-Grammar Generator 2005, chapter 4.
 
 #include "base/result.hpp"
+#include "quantify/distribution.hpp"
 #include "quantify/outlook.hpp"
 
 #include <map>
@@ -21,22 +22,15 @@
 
 namespace axil::quantify {
 
-struct Distribution {
-  enum class Form { Constant, Normal, Even, Table } form = Form::Constant;
-  double centre = 0;            ///< mean; of Even the middle
-  double spread = 0;            ///< standard deviation; of Even half the width
-  std::vector<double> values;   ///< of Table: equally likely, ascending
-  std::size_t samples = 0;
-};
-
-/// Of numbers that can't be negative, where none of them is: then a normal distribution must keep clear of 0.
-[[nodiscard]] Distribution distributionOf(std::vector<double> values);
-/// Like it, of whole numbers: a number or a table.
-[[nodiscard]] Distribution countsOf(std::vector<double> values);
-
 struct EndFate {
   int arms = 0;                 ///< axes that an axis ends in
   double share = 0;
+};
+
+/// One of the axes that leave a node together (arms.hpp).
+struct FamilyArm {
+  Distribution insertion;
+  Distribution start;           ///< its first length (or level) over what the order that it begins starts from
 };
 
 enum class Extent { Stages, Own };
@@ -55,11 +49,8 @@ struct FamilyOrder {
   double slope = 0;
   Distribution own;
 
-  double ending = 0;                ///< Stages: chance of a node to end the axis; Own: 0
-  std::vector<EndFate> ends;        ///< what an axis ends in, shares sum to 1
-  std::vector<double> branches;     ///< [k]: share of nodes that go on with k branches; sum 1
-  std::vector<double> byRank;       ///< share of nodes with any branch at rank modulo the size (periodic), or at least the last rank; empty: alike
-  bool periodic = false;
+  FateTable fates;                  ///< of nodes with more to come; of Own only of those that the axis goes on from
+  std::vector<EndFate> ends;        ///< Own: what an axis ends in, shares sum to 1
 
   bool followsBelow = false;        ///< length: the segment below times `factor`; else a level, times `step` a rank, times `factor`
   double step = 1;
@@ -72,7 +63,7 @@ struct FamilyOrder {
   bool bendsToOneSide = false;      ///< rotu of bends is normal around `side`; else any
   double side = 0, sideDeviation = 0;
   Distribution insertion;                             ///< of what this order bears
-  std::map<int, std::vector<Distribution>> arms;      ///< by their number, where they differ
+  std::map<int, std::vector<FamilyArm>> arms;         ///< of what this order bears, by the number of axes at the node, where they differ
 
   double radius = 0, radiusStep = 1;  ///< 0: none measured
   double leafShare = 0;               ///< of segments

@@ -1,8 +1,10 @@
 #include "quantify/layers.hpp"
 
 #include "base/text.hpp"
+#include "quantify/arms.hpp"
 #include "quantify/estimate.hpp"
 #include "quantify/mixed.hpp"
+#include "quantify/prepared.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -238,7 +240,36 @@ void addAngles(LayeredStatistics& out, std::span<const MeasuredPlant> plants) {
   out.branchesAround.push_back(phyllotaxisOf(plants, OrgansAround::Branches));
 }
 
+ArmLayer armLayer(std::span<const MeasuredPlant> plants, const std::vector<ArmMember>& members) {
+  std::vector<Sample> leans, ratios;
+  for (const ArmMember& member : members) {
+    const Measurements& m = *plants[member.plant].measurements;
+    const Segment& base = m.at(member.base);
+    leans.push_back({member.plant, 0, 0, base.rotr.radians()});
+    ratios.push_back({member.plant, 0, 0, std::log(base.length / m.at(*base.parent).length)});
+  }
+  ArmLayer layer{estimateOf(leans, SampleKind::Plain), estimateOf(ratios, SampleKind::Plain)};
+  exponentiate(layer.lateralRatio);
+  return layer;
+}
+
+void addArms(LayeredStatistics& out, std::span<const MeasuredPlant> plants) {
+  const int top = static_cast<int>(out.schedule.orders.size()) - 1;
+  const bool together = mostlySympodial(out);
+  for (int order = 0; order <= (together ? 0 : top); ++order)
+    for (const Arms& arms : armsOf(plants, order, together ? top : order)) {
+      ArmLayers layers;
+      if (!together) layers.order = order;
+      for (const auto& members : arms.members) layers.arms.push_back(armLayer(plants, members));
+      out.arms.push_back(std::move(layers));
+    }
+}
+
 }  // namespace
+
+bool mostlySympodial(const LayeredStatistics& s) {
+  return std::count(s.branching.begin(), s.branching.end(), Branching::Sympodial) * 2 > static_cast<std::ptrdiff_t>(s.plants);
+}
 
 std::span<const QuantityName> quantityNames() { return kNames; }
 
@@ -274,22 +305,28 @@ Result<std::vector<Measurements>> inOneUnit(std::span<const Measurements> plants
   return same;
 }
 
-Result<LayeredStatistics> layeredStatistics(std::span<const Measurements> given) {
+Result<PreparedPlants> prepared(std::span<const Measurements> given) {
   if (given.empty() || std::any_of(given.begin(), given.end(), [](const Measurements& m) { return m.segments.empty(); }))
     return fail(ErrorCode::NoAnswer, "there is no plant with a segment to take statistics of");
-  LayeredStatistics out;
-  const auto plants = inOneUnit(given, out.warnings);
+  PreparedPlants result;
+  auto plants = inOneUnit(given, result.warnings);
   if (!plants) return plants.failure();
-  out.unit = plants->front().unit;
-  out.plants = plants->size();
-  std::vector<PlantStructure> structures;
-  for (const Measurements& m : *plants) structures.push_back(plantStructure(m));
-  std::vector<MeasuredPlant> measured;
+  result.plants = std::move(*plants);
+  for (const Measurements& m : result.plants) result.structures.push_back(plantStructure(m));
+  for (std::size_t p = 0; p < result.plants.size(); ++p) result.measured.push_back({&result.plants[p], &result.structures[p]});
+  return result;
+}
+
+LayeredStatistics statisticsOf(const PreparedPlants& ready) {
+  const std::span<const MeasuredPlant> measured = ready.measured;
+  LayeredStatistics out;
+  out.warnings = ready.warnings;
+  out.unit = ready.plants.front().unit;
+  out.plants = ready.plants.size();
   std::vector<double> straightness;
-  for (std::size_t p = 0; p < plants->size(); ++p) {
-    measured.push_back({&(*plants)[p], &structures[p]});
-    out.branching.push_back(structures[p].branching);
-    if (structures[p].branching != Branching::None) straightness.push_back(structures[p].straightness);
+  for (const PlantStructure& structure : ready.structures) {
+    out.branching.push_back(structure.branching);
+    if (structure.branching != Branching::None) straightness.push_back(structure.straightness);
   }
   if (!straightness.empty()) out.straightness = medianOf(straightness);
   out.schedule = scheduleOf(measured);
@@ -298,8 +335,15 @@ Result<LayeredStatistics> layeredStatistics(std::span<const Measurements> given)
   for (const QuantityName& name : kNames) out.layers.push_back(layersOf(out.samples[indexOf(name.quantity)], gatherer.axes[indexOf(name.quantity)], name.kind));
   out.branches = branchSharesOf(gatherer.branchCounts);
   addAngles(out, measured);
+  addArms(out, measured);
   for (std::string& warning : disagreements(out, measured)) out.warnings.push_back(std::move(warning));
   return out;
+}
+
+Result<LayeredStatistics> layeredStatistics(std::span<const Measurements> given) {
+  const auto ready = prepared(given);
+  if (!ready) return ready.failure();
+  return statisticsOf(*ready);
 }
 
 }  // namespace axil::quantify

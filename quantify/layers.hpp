@@ -15,12 +15,14 @@
 
 #include "base/result.hpp"
 #include "quantify/branching.hpp"
+#include "quantify/fates.hpp"
 #include "quantify/phyllotaxis.hpp"
 #include "quantify/schedule.hpp"
 #include "quantify/structure.hpp"
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -123,19 +125,22 @@ struct BranchShares {
   std::size_t nodes = 0;
 };
 
-/// What became of an axis at a segment's tip.
-struct Fate {
-  bool goesOn = false;
-  int branches = 0;
-  double share = 0;
-  std::size_t count = 0;
-  friend bool operator<(const Fate& a, const Fate& b) { return std::pair(!a.goesOn, a.branches) < std::pair(!b.goesOn, b.branches); }
-};
 /// Shares of fates of an order, of segments whose fate is decided: what still grows, and nodes too young to branch, are left out.
 struct Fates {
   int order = 0;
   std::vector<Fate> fates;
   std::size_t segments = 0;
+};
+
+/// One of the axes that leave a node together, where they differ (arms.hpp).
+struct ArmLayer {
+  Estimate insertion;      ///< rotr, radians
+  Estimate lateralRatio;   ///< its first segment over its bearer
+};
+/// Of sympodial plants those of all orders together.
+struct ArmLayers {
+  std::optional<int> order;   ///< of the bearer; none: all orders
+  std::vector<ArmLayer> arms;
 };
 
 struct LayeredStatistics {
@@ -145,6 +150,7 @@ struct LayeredStatistics {
   std::vector<Sample> samples[kQuantities];     ///< what they stand on
   std::vector<BranchShares> branches;
   std::vector<Fates> fates;                     ///< by order
+  std::vector<ArmLayers> arms;                  ///< where arms differ; the layers above describe them as one
   Schedule schedule;
   std::vector<BranchingPattern> patterns;       ///< by order
   std::vector<Phyllotaxis> leaves;              ///< by order; then of all orders together, last

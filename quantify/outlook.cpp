@@ -2,10 +2,12 @@
 
 #include "quantify/circular.hpp"
 #include "quantify/estimate.hpp"
+#include "quantify/outlook_parts.hpp"
+#include "quantify/prepared.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -33,36 +35,43 @@ double fewFactor(std::size_t samples) {
   return 1 + 1.5 / f + 1 / (f * f);
 }
 
-/// Logarithms of an axis' lengths.
-std::vector<double> logLengths(const Measurements& m, const Axis& axis) {
-  std::vector<double> logs;
-  for (const SegmentId s : axis.segments) logs.push_back(std::log(m.at(s).length));
-  return logs;
+/// Foretells one rank of an axis from the ranks below it.
+double foretold(LengthRule rule, std::span<const double> below, const OrderCourse& course) {
+  const double rank = static_cast<double>(below.size());
+  if (rule == LengthRule::Last && !below.empty()) return below.back() + course.step;
+  if (rule == LengthRule::Axis && !below.empty()) return course.levelAt(below, rank);
+  return course.start + course.step * rank;
 }
 
-/// Foretells one rank of an axis from the ranks below it.
-double foretold(LengthRule rule, const std::vector<double>& below, const Trend& trend, double logStep, double levelWeight) {
-  const double rank = static_cast<double>(below.size());
-  if (rule == LengthRule::Last && !below.empty()) return below.back() + logStep;
-  double expected = trend.start + logStep * rank;
-  if (rule == LengthRule::Axis && !below.empty()) {
-    double off = 0;
-    for (std::size_t i = 0; i < below.size(); ++i) off += below[i] - trend.start - logStep * static_cast<double>(i);
-    // The axis' own level counts by how many segments tell it.
-    expected += off / (static_cast<double>(below.size()) + levelWeight);
-  }
-  return expected;
+/// By how much an axis' own level, told by so many segments, adds to a miss.
+double levelDoubt(LengthRule rule, std::size_t below, const OrderCourse& course) {
+  return rule == LengthRule::Axis ? std::sqrt(1 + 1 / (static_cast<double>(below) + course.weight)) : 1;
+}
+
+/// Of the logarithm of a next length: its scatter, the doubt about the axis' level, and that about the order's step over half the axis.
+double doubtOf(const LengthOutlook& length, std::size_t below, const OrderCourse& course) {
+  const double scatter = length.miss * levelDoubt(length.rule, below, course);
+  return length.rule == LengthRule::Last ? scatter : std::hypot(scatter, course.stepError * (static_cast<double>(below) + 1) / 2);
 }
 
 class Maker {
  public:
   Maker(std::span<const MeasuredPlant> plants, LayeredStatistics statistics) : plants_(plants) { out_.statistics = std::move(statistics); }
 
-  Outlook made() {
+  /// What all plants show; then each plant's own tips, as often as wanted.
+  void makeShared() {
     for (int order = 0; order < static_cast<int>(out_.statistics.schedule.orders.size()); ++order) addOrder(order);
+    setStarts(out_, plants_, courses_);
+  }
+  Outlook madeFor(std::size_t plant) {
+    out_.plant = plant;
+    out_.levels.clear();
+    out_.tips.clear();
+    out_.buds.clear();
+    addLevels();
     addTips();
     addBuds();
-    return std::move(out_);
+    return out_;
   }
 
  private:
@@ -73,19 +82,14 @@ class Maker {
     o.order = order;
     o.schedule = stats().schedule.of(order);
     o.delay = stats().patterns[static_cast<std::size_t>(order)].delay;
-    if (const auto& p = stats().patterns[static_cast<std::size_t>(order)]; p.habit == BranchingHabit::EveryKth) {
-      o.period = p.period;
-      o.phase = p.phase;
-    }
     setEnd(o);
     setFates(o);
     setLength(o);
-    setStart(o);
     o.bend = stats().of(Quantity::Bend).nearest(order);
     o.insertion = stats().of(Quantity::Insertion).nearest(order - 1);
     setRadius(o);
     setAround(o);
-    setLeaves(o);
+    setLeaves(o, plants_, stats());
     out_.orders.push_back(std::move(o));
   }
 
@@ -101,26 +105,19 @@ class Maker {
   }
 
   void setFates(OrderOutlook& o) {
-    std::map<std::pair<bool, int>, double> counts;
-    const bool sympodial = std::count(stats().branching.begin(), stats().branching.end(), Branching::Sympodial) * 2 > static_cast<std::ptrdiff_t>(stats().plants);
+    std::vector<NodeFate> nodes;
+    const bool together = mostlySympodial(stats());
     for (std::size_t p = 0; p < plants_.size(); ++p) {
       const PlantStructure& structure = *plants_[p].structure;
       for (const SegmentPlace& place : structure.places) {
-        if (!sympodial && place.order != o.order) continue;
+        if (!together && place.order != o.order) continue;
         if (!place.goesOn && stats().schedule.plants[p].grows[static_cast<std::size_t>(place.axis.value)]) continue;
         if (place.goesOn && place.fromTip <= o.delay) continue;
         if (o.most && place.rank + 1 >= *o.most) continue;
-        if (o.period > 1 && place.rank % o.period != o.phase) continue;
-        counts[{!place.goesOn, place.branches}] += 1;
+        nodes.push_back({place.rank, place.goesOn, place.branches});
       }
     }
-    double sum = 0;
-    for (const auto& [fate, count] : counts) sum += count;
-    if (sum == 0) {
-      o.fates = {{true, 0, 1, 0}};
-      return;
-    }
-    for (const auto& [fate, count] : counts) o.fates.push_back({!fate.first, fate.second, count / sum, static_cast<std::size_t>(count)});
+    o.fates = fateTableOf(nodes);
   }
 
   void setLength(OrderOutlook& o) {
@@ -128,49 +125,35 @@ class Maker {
     const Trend& trend = layer->trend;
     o.segments = layer->estimate.samples;
     o.usualLength = std::exp(trend.start);
-    const double ratio = std::log(stats().of(Quantity::LengthRatio).nearest(o.order).value);
-    const double axes = std::max(trend.axisDeviation, 1e-9);
-    levelWeight_[o.order] = std::min(100.0, trend.residual * trend.residual / (axes * axes));
-    const std::array<double, 3> steps{trend.clear() ? trend.slope : 0, trend.clear() ? trend.slope : 0, stats().of(Quantity::LengthRatio).all.samples > 0 ? ratio : 0};
+    const double ratio = stats().of(Quantity::LengthRatio).all.samples > 0 ? std::log(stats().of(Quantity::LengthRatio).nearest(o.order).value) : 0;
+    OrderCourse course{trend.start, trend.clear() ? trend.slope : 0, 100, trend.slopeError};
+    // Axes of one segment say nothing of levels.
+    if (layer->estimate.samples > o.schedule.axes) course.weight = std::min(100.0, std::pow(trend.residual / std::max(trend.axisDeviation, 1e-9), 2));
+    courses_[o.order] = course;
     double least = std::numeric_limits<double>::infinity();
     for (const LengthRule rule : {LengthRule::Trend, LengthRule::Axis, LengthRule::Last}) {
-      const double step = steps[static_cast<std::size_t>(rule)];
-      std::vector<double> misses;
-      for (const MeasuredPlant& plant : plants_)
-        for (const Axis& axis : plant.structure->axes) {
-          if (axis.order != o.order) continue;
-          const std::vector<double> logs = logLengths(*plant.measurements, axis);
-          for (std::size_t r = 1; r < logs.size(); ++r)
-            misses.push_back(logs[r] - foretold(rule, {logs.begin(), logs.begin() + static_cast<std::ptrdiff_t>(r)}, trend, step, levelWeight_[o.order]));
+      OrderCourse own = course;
+      if (rule == LengthRule::Last) own.step = ratio;
+      std::vector<double> misses, alike;  // as they are; and as they would be for an axis whose level is known
+      eachAxis(o.order, [&](const std::vector<double>& logs) {
+        for (std::size_t r = 1; r < logs.size(); ++r) {
+          misses.push_back(logs[r] - foretold(rule, std::span(logs).first(r), own));
+          alike.push_back(misses.back() / levelDoubt(rule, r, own));
         }
+      });
+      // A later rule must be better by more than rounding; where too few misses judge, the segment below it is.
       const double miss = deviationOf(misses);
-      // A later rule must be better by more than rounding.
       if (misses.size() >= kJudges && miss >= 0.98 * least) continue;
       if (misses.size() < kJudges && rule != LengthRule::Last) continue;
       least = miss;
-      o.length = {rule, std::exp(step), miss, misses.size()};
+      o.length = {rule, std::exp(own.step), deviationOf(alike), misses.size()};
     }
   }
-
-  /// First segments: as usual for the order, or in proportion to the bearer.
-  void setStart(OrderOutlook& o) {
-    std::vector<double> logs;
-    std::vector<double> ratios;
+  template <class Visit>
+  void eachAxis(int order, Visit visit) {
     for (const MeasuredPlant& plant : plants_)
-      for (const Axis& axis : plant.structure->axes) {
-        if (axis.order != o.order) continue;
-        logs.push_back(std::log(plant.measurements->at(axis.base()).length));
-        if (axis.bearer) ratios.push_back(logs.back() - std::log(plant.measurements->at(*axis.bearer).length));
-      }
-    const Centre own = centreOf(logs);
-    o.usualLength = std::exp(own.value);
-    o.startMiss = own.deviation;
-    if (ratios.empty()) return;
-    const Centre ratio = centreOf(ratios);
-    o.bearerRatio = std::exp(ratio.value);
-    if (logs.size() != ratios.size() || (ratios.size() > 1 && ratio.deviation >= own.deviation)) return;
-    o.followsBearer = true;
-    o.startMiss = ratio.deviation;
+      for (const Axis& axis : plant.structure->axes)
+        if (axis.order == order) visit(logLengths(*plant.measurements, axis));
   }
 
   void setRadius(OrderOutlook& o) {
@@ -241,101 +224,21 @@ class Maker {
     }
   }
 
-  void setLeaves(OrderOutlook& o) {
-    std::map<int, std::vector<double>> countsByAge;  // leaves of segments of growing axes, by their distance from the tip
-    std::map<int, std::vector<double>> sizesByAge;
-    std::vector<double> petioles;
-    std::map<int, std::size_t> perNode;
-    for (std::size_t p = 0; p < plants_.size(); ++p)
-      for (std::size_t s = 0; s < plants_[p].measurements->segments.size(); ++s) {
-        const SegmentPlace& place = plants_[p].structure->places[s];
-        if (place.order != o.order) continue;
-        const auto& leaves = plants_[p].measurements->segments[s].leaves;
-        if (stats().schedule.plants[p].grows[static_cast<std::size_t>(place.axis.value)]) countsByAge[place.fromTip].push_back(leaves.empty() ? 0 : 1);
-        for (const LeafMeasure& leaf : leaves) {
-          sizesByAge[place.fromTip].push_back(std::log(leaf.length));
-          petioles.push_back(leaf.petiole);
-        }
-        if (!leaves.empty()) ++perNode[static_cast<int>(leaves.size())];
-      }
-    if (perNode.empty()) return;
-    o.perNode = std::max_element(perNode.begin(), perNode.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
-    setLeafTimes(o, countsByAge);
-    setLeafSizes(o, sizesByAge);
-    o.petiole = medianOf(std::move(petioles));
-    const Estimate& angle = stats().of(Quantity::LeafAngle).nearest(o.order);
-    o.leafAngle = angle.value;
-    o.leafAngleDeviation = angle.deviation;
-    o.leafWidth = o.leafLength * widthOverLength(o.order);
-  }
+  // ---- one plant's own tips ------------------------------------------------------------------------------------
 
-  [[nodiscard]] double widthOverLength(int order) const {
-    std::vector<double> shares;
-    for (const MeasuredPlant& plant : plants_)
-      for (std::size_t s = 0; s < plant.measurements->segments.size(); ++s)
-        for (const LeafMeasure& leaf : plant.measurements->segments[s].leaves)
-          if (plant.structure->places[s].order == order) shares.push_back(leaf.width / leaf.length);
-    return shares.empty() ? 0 : medianOf(std::move(shares));
-  }
-
-  static double shareIn(const std::map<int, std::vector<double>>& counts, int age) {
-    const auto found = counts.find(age);
-    if (found == counts.end()) return 0;
-    double sum = 0;
-    for (const double c : found->second) sum += c;
-    return sum / static_cast<double>(found->second.size());
-  }
-
-  /// Whether the youngest node has its leaves, and whether old ones have lost theirs.
-  static void setLeafTimes(OrderOutlook& o, const std::map<int, std::vector<double>>& counts) {
-    double best = 0;
-    int oldest = 0;
-    for (const auto& [age, values] : counts) {
-      if (age <= 3) best = std::max(best, shareIn(counts, age));
-      oldest = std::max(oldest, age);
-    }
-    o.leafShare = best;
-    o.leafAtOwnTip = shareIn(counts, 0) >= 0.5 * best;
-    if (best <= 0) return;
-    // Gone for good: from some age on (nearly) none has leaves, on three nodes and more.
-    int last = oldest;
-    std::size_t bare = 0;
-    while (last >= 0 && shareIn(counts, last) <= 0.1 * best) {
-      if (const auto found = counts.find(last); found != counts.end()) bare += found->second.size();
-      --last;
-    }
-    if (bare >= 3 && last >= 0 && last < oldest) o.leafLasts = last + 1;
-  }
-
-  static void setLeafSizes(OrderOutlook& o, const std::map<int, std::vector<double>>& sizes) {
-    std::vector<double> all;
-    for (const auto& [age, logs] : sizes) all.insert(all.end(), logs.begin(), logs.end());
-    int oldest = sizes.rbegin()->first;
-    // The youngest age from which leaves are within a tenth of all older ones.
-    for (int age = 0; age <= oldest; ++age) {
-      std::vector<double> here;
-      std::vector<double> older;
-      for (const auto& [a, logs] : sizes) (a <= age ? here : older).insert((a <= age ? here : older).end(), logs.begin(), logs.end());
-      const auto own = sizes.find(age);
-      if (own == sizes.end()) continue;
-      if (older.empty() || medianOf(own->second) >= medianOf(older) + std::log(0.9)) {
-        std::vector<double> grown = own->second;
-        grown.insert(grown.end(), older.begin(), older.end());
-        const Centre centre = centreOf(grown);
-        o.leafLength = std::exp(centre.value);
-        o.leafDeviation = centre.deviation;
-        o.leafStages = std::max(1, age + (o.leafAtOwnTip ? 1 : 0));
-        return;
-      }
+  void addLevels() {
+    const MeasuredPlant& plant = plants_[out_.plant];
+    out_.levels.resize(plant.measurements->segments.size());
+    for (const Axis& axis : plant.structure->axes) {
+      const std::vector<double> logs = logLengths(*plant.measurements, axis);
+      for (std::size_t r = 0; r < logs.size(); ++r) out_.levels[placeOf(axis.segments[r])] = std::exp(courses_.at(axis.order).levelAt(logs, static_cast<double>(r)));
     }
   }
-
-  // ---- the first plant's own tips ------------------------------------------------------------------------------------
 
   void addTips() {
-    const MeasuredPlant& plant = plants_.front();
+    const MeasuredPlant& plant = plants_[out_.plant];
     for (std::size_t a = 0; a < plant.structure->axes.size(); ++a) {
-      if (!stats().schedule.plants.front().grows[a]) continue;
+      if (!stats().schedule.plants[out_.plant].grows[a]) continue;
       const Axis& axis = plant.structure->axes[a];
       const OrderOutlook& o = out_.of(axis.order);
       const int rank = static_cast<int>(axis.segments.size());
@@ -351,10 +254,11 @@ class Maker {
     tip.tip = axis.tip();
     tip.order = axis.order;
     tip.nextRank = static_cast<int>(axis.segments.size());
-    const OrderLayer* layer = stats().of(Quantity::Length).order(axis.order);
     const std::vector<double> logs = logLengths(*plant.measurements, axis);
-    tip.length = std::exp(foretold(o.length.rule, logs, layer->trend, std::log(o.length.step), levelWeight_[o.order]));
-    tip.miss = o.length.samples >= 2 ? o.length.miss : std::max(o.length.miss, o.startMiss);
+    OrderCourse course = courses_.at(axis.order);
+    course.step = std::log(o.length.step);
+    tip.length = std::exp(foretold(o.length.rule, logs, course));
+    tip.miss = o.length.samples >= 2 ? doubtOf(o.length, logs.size(), course) : std::max(o.length.miss, o.startMiss);
     const double reach = kNinety * tip.miss * fewFactor(o.length.samples);
     tip.low = tip.length * std::exp(-reach);
     tip.high = tip.length * std::exp(reach);
@@ -372,21 +276,19 @@ class Maker {
   }
 
   void addBuds() {
-    const MeasuredPlant& plant = plants_.front();
+    const MeasuredPlant& plant = plants_[out_.plant];
     for (std::size_t a = 0; a < plant.structure->axes.size(); ++a) {
       const Axis& axis = plant.structure->axes[a];
       const OrderOutlook& o = out_.of(axis.order);
-      double share = 0;
-      for (const Fate& fate : o.fates) share += fate.branches > 0 ? fate.share : 0;
-      if (o.delay == 0 || share == 0) continue;
+      if (o.delay == 0) continue;
       for (const SegmentId s : axis.segments) {
         const SegmentPlace& place = plant.structure->at(s);
         if (!place.goesOn || place.branches > 0 || place.fromTip > o.delay) continue;
-        if (o.period > 1 && place.rank % o.period != o.phase) continue;
+        const double share = o.fates.branchingAt(place.rank);
+        if (share <= 0) continue;
         const OrderOutlook& next = out_.of(axis.order + 1);
-        const double length = next.followsBearer ? next.bearerRatio * plant.measurements->at(s).length : next.usualLength;
         const auto around = nodeAzimuth(plant, s);
-        out_.buds.push_back({s, axis.order + 1, o.delay - place.fromTip, share, length, around.value_or(0) + o.branchBesideLeaf - twistOf(plant, s)});
+        out_.buds.push_back({s, axis.order + 1, o.delay - place.fromTip, share, next.firstLength(plant.measurements->at(s).length, out_.levels[placeOf(s)]), around.value_or(0) + o.branchBesideLeaf - twistOf(plant, s)});
       }
     }
     std::sort(out_.buds.begin(), out_.buds.end(), [](const BudOutlook& x, const BudOutlook& y) { return x.at < y.at; });
@@ -394,7 +296,7 @@ class Maker {
 
   std::span<const MeasuredPlant> plants_;
   Outlook out_;
-  std::map<int, double> levelWeight_;
+  std::map<int, OrderCourse> courses_;
 };
 
 }  // namespace
@@ -410,17 +312,45 @@ const char* nameOf(LengthRule rule) {
 
 const OrderOutlook& Outlook::of(int order) const { return orders[static_cast<std::size_t>(std::clamp(order, 0, static_cast<int>(orders.size()) - 1))]; }
 
+double OrderOutlook::firstLength(double bearer, double level) const {
+  switch (start) {
+    case StartRule::Usual: return usualLength;
+    case StartRule::Bearer: return bearerRatio * bearer;
+    case StartRule::Level: return bearerRatio * level;
+  }
+  return usualLength;
+}
+
+std::vector<double> logLengths(const Measurements& m, const Axis& axis) {
+  std::vector<double> logs;
+  for (const SegmentId s : axis.segments) logs.push_back(std::log(m.at(s).length));
+  return logs;
+}
+
+double OrderCourse::levelAt(std::span<const double> logs, double rank) const {
+  double off = 0;
+  for (std::size_t i = 0; i < logs.size(); ++i) off += logs[i] - start - step * static_cast<double>(i);
+  return start + step * rank + off / (static_cast<double>(logs.size()) + weight);
+}
+
+Outlook outlookOf(const PreparedPlants& plants) {
+  Maker maker(plants.measured, statisticsOf(plants));
+  maker.makeShared();
+  return maker.madeFor(0);
+}
+
+std::vector<Outlook> outlooksOf(const PreparedPlants& plants) {
+  Maker maker(plants.measured, statisticsOf(plants));
+  maker.makeShared();
+  std::vector<Outlook> all;
+  for (std::size_t p = 0; p < plants.plants.size(); ++p) all.push_back(maker.madeFor(p));
+  return all;
+}
+
 Result<Outlook> anyOutlookOf(std::span<const Measurements> given) {
-  auto statistics = layeredStatistics(given);
-  if (!statistics) return statistics.failure();
-  std::vector<std::string> known;  // layeredStatistics has warned already
-  const auto plants = inOneUnit(given, known);
-  if (!plants) return plants.failure();
-  std::vector<PlantStructure> structures;
-  for (const Measurements& m : *plants) structures.push_back(plantStructure(m));
-  std::vector<MeasuredPlant> measured;
-  for (std::size_t p = 0; p < plants->size(); ++p) measured.push_back({&(*plants)[p], &structures[p]});
-  return Maker(measured, std::move(*statistics)).made();
+  const auto ready = prepared(given);
+  if (!ready) return ready.failure();
+  return outlookOf(*ready);
 }
 
 Result<Outlook> outlookOf(std::span<const Measurements> given) {

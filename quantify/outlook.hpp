@@ -3,7 +3,7 @@
 /// Outlook: what a measured plant's next stages will be like, by branching order, and what each of its own tips will do next.
 ///
 /// From layered statistics come, for each order: how fast its axes grow and when they stop (schedule), what becomes of a tip (goes on, branches, forks,
-/// ends) and at which ranks, how leaves and branches stand, how large leaves get, how many stages they take and after how many they are gone.
+/// ends) and at which ranks (fates), how leaves and branches stand, how large leaves get, how many stages they take and after how many they are gone.
 /// The length of a next segment is foretold by the rule that foretold the measured ones best, each from the segments below it: the order's
 /// trend along the rank, the axis' own level on that trend, or the segment below times the usual ratio; its misses make the interval.
 /// Rules that are no better than chance are not told apart: fewer than three misses take the trend. Source of the idea: L-Grammar Generator
@@ -12,6 +12,7 @@
 #include "base/result.hpp"
 #include "quantify/layers.hpp"
 
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,19 +30,28 @@ struct LengthOutlook {
   std::size_t samples = 0;  ///< segments it was judged by
 };
 
+/// What the first segment of a new axis follows: what is usual for its order, its bearer's length, or the level that its bearer's axis keeps to there.
+enum class StartRule { Usual, Bearer, Level };
+
+/// One of the axes that leave a node together, where they differ (arms.hpp).
+struct ArmOutlook {
+  Estimate insertion;
+  double ratio = 1;                 ///< of its first segment to the bearer's length (or level)
+};
+
 struct OrderOutlook {
   int order = 0;
   OrderSchedule schedule;
-  std::vector<Fate> fates;          ///< shares sum to 1; of tips below `most`
+  FateTable fates;                  ///< of nodes below `most`
   std::optional<int> most;          ///< segments at which axes of this order end, if they do
-  int period = 1;                   ///< branches stand at every period-th node, at those of rank `phase` modulo it
-  int phase = 0;
   int delay = 0;                    ///< stages after its node that a branch begins, beyond the usual one
   LengthOutlook length;
   double usualLength = 0;           ///< of an axis' first segment
-  bool followsBearer = false;       ///< the first segment's length is `bearerRatio` times its bearer's
-  double bearerRatio = 1;           ///< of axes of this order
+  StartRule start = StartRule::Usual;
+  double bearerRatio = 1;           ///< of axes of this order: the first segment's length over its bearer's (or the bearer's level)
   double startMiss = 0;             ///< standard deviation of log(true / foretold) of first segments
+  std::size_t starts = 0;           ///< axes it was judged by
+  std::map<int, std::vector<ArmOutlook>> arms;  ///< of what this order bears, by the number of axes at the node
   Estimate bend;
   Estimate insertion;               ///< of axes of this order
   double radius = 0;                ///< of young segments; 0: none measured
@@ -59,6 +69,9 @@ struct OrderOutlook {
   std::optional<double> leafLasts;  ///< stages after which it has fallen
   double branchBesideLeaf = 0;      ///< azimuth of a branch against the leaf of its node
   std::size_t segments = 0;         ///< measured
+
+  /// Foretold median of a new axis' first segment, on a segment of length `bearer` where its axis' level is `level`.
+  [[nodiscard]] double firstLength(double bearer, double level) const;
 };
 
 /// What one measured axis will do next.
@@ -85,11 +98,13 @@ struct BudOutlook {
 };
 
 struct Outlook {
-  std::vector<OrderOutlook> orders;
-  std::vector<TipOutlook> tips;   ///< of the first plant, ascending
+  std::vector<OrderOutlook> orders;   ///< of sympodial plants, whose axes are of one kind, one more than was measured: what comes above
+  std::size_t plant = 0;          ///< whose tips follow
+  std::vector<TipOutlook> tips;   ///< of that plant, ascending
+  std::vector<double> levels;     ///< of each of its segments: the length that its axis keeps to there, without the segment's own chance
   std::vector<BudOutlook> buds;
   LayeredStatistics statistics;
-  [[nodiscard]] const OrderOutlook& of(int order) const;  ///< of orders above the highest measured, the highest's
+  [[nodiscard]] const OrderOutlook& of(int order) const;  ///< of orders above the highest, the highest's
 };
 
 /// The outlook of the first plant, by what all of them show. Fails as layeredStatistics does, and with NoAnswer where no segment of any plant has a

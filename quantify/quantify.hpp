@@ -11,6 +11,7 @@
 
 #include "quantify/types.hpp"       // Segment, LeafMeasure, Measurements, LeafArrangement
 #include "quantify/leaves.hpp"      // arrangements become leaves
+#include "quantify/stalks.hpp"      // stalks that a grown plant has as stems
 #include "quantify/measure.hpp"     // a skeleton becomes numbers
 #include "quantify/csv.hpp"         // numbers as a table
 #include "quantify/statistics.hpp"  // ranges, templates, branching orders
@@ -20,8 +21,11 @@
 #include "quantify/branching.hpp"   // where along an axis branches stand
 #include "quantify/subtrees.hpp"    // what repeats, exactly and nearly
 #include "quantify/schedule.hpp"    // when each part was made, and what still grows
+#include "quantify/fates.hpp"       // what becomes of an apex, by the rank of its node
+#include "quantify/arms.hpp"        // axes that leave a node together and differ
 #include "quantify/layers.hpp"      // statistics by order and rank, of one plant or many
 #include "quantify/outlook.hpp"     // what the next stages will be like
+#include "quantify/distribution.hpp" // a number, normal, even, or a table
 #include "quantify/family.hpp"      // the process that plants look like samples of
 #include "quantify/backtest.hpp"    // how well that foretells what is known
 #include "quantify/compare.hpp"     // how near two plants, or two sets of plants, are

@@ -35,6 +35,12 @@ std::vector<double> heightsOf(const Measurements& m) {
   return heights;
 }
 
+double furthestOf(const std::vector<Case>& cases) {
+  double furthest = 0;
+  for (const Case& c : cases) furthest = std::max(furthest, c.stages);
+  return furthest;
+}
+
 std::vector<Case> casesOf(std::span<const MeasuredPlant> plants, const Schedule& schedule, int order) {
   std::vector<Case> cases;
   for (std::size_t p = 0; p < plants.size(); ++p) {
@@ -48,7 +54,61 @@ std::vector<Case> casesOf(std::span<const MeasuredPlant> plants, const Schedule&
   return cases;
 }
 
-/// Steady growth with the delay that most axes keep to; none where too few do.
+/// The log-likelihood of axes that make a segment a stage, `delay` stages late, each node ending its axis with the share that does. What is longer than it can
+/// be is a slip.
+constexpr double kSlip = 0.02;
+double steadyLikelihood(const std::vector<Case>& cases, int delay) {
+  double nodes = 0, ended = 0;
+  for (const Case& c : cases) {
+    const double possible = c.stages - delay;
+    if (c.height > possible + 0.5) continue;
+    nodes += std::min(c.height, possible - 1);
+    ended += c.height < possible - 0.5 ? 1 : 0;
+  }
+  const double share = nodes > 0 ? std::clamp(ended / nodes, 1e-6, 1 - 1e-6) : 0.5;
+  double log = 0;
+  for (const Case& c : cases) {
+    const double possible = c.stages - delay;
+    if (c.height > possible + 0.5) log += std::log(kSlip);
+    else if (c.height > possible - 0.5) log += std::max(0.0, possible - 1) * std::log(1 - share);
+    else log += (c.height - 1) * std::log(1 - share) + std::log(share);
+  }
+  return log;
+}
+
+/// Of axes that make a segment with chance `rate` in each of their stages. Axes that have made none yet are not seen.
+double rateLikelihood(const std::vector<Case>& cases, double rate, double lasting) {
+  double log = 0;
+  for (const Case& c : cases) {
+    const double trials = std::max(1.0, std::round(std::min(c.stages, lasting)));
+    const double made = std::min(c.segments, trials);
+    if (c.segments > trials) log += std::log(kSlip);
+    const double choices = std::lgamma(trials + 1) - std::lgamma(made + 1) - std::lgamma(trials - made + 1);
+    log += choices + made * std::log(rate) + (trials - made) * std::log(1 - rate) - std::log(1 - std::pow(1 - rate, trials));
+  }
+  return log;
+}
+
+/// The rate of greatest likelihood, by golden section.
+double likeliestRate(const std::vector<Case>& cases, double lasting) {
+  constexpr double kGolden = 0.6180339887498949;
+  double low = kSlowest, high = 0.999;
+  for (int step = 0; step < 40; ++step) {
+    const double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+    if (rateLikelihood(cases, a, lasting) < rateLikelihood(cases, b, lasting)) low = a;
+    else high = b;
+  }
+  return (low + high) / 2;
+}
+
+std::vector<Case> unforked(const std::vector<Case>& cases) {
+  std::vector<Case> result;
+  for (const Case& c : cases)
+    if (!c.forks && c.stages > 0) result.push_back(c);
+  return result;
+}
+
+/// Steady growth with the delay that most axes keep to; none where too few do, or where growth by chance explains them better.
 std::optional<int> steadyDelay(const std::vector<Case>& cases) {
   double furthest = 0;
   for (const Case& c : cases) furthest = std::max(furthest, c.stages - c.height);
@@ -67,29 +127,32 @@ std::optional<int> steadyDelay(const std::vector<Case>& cases) {
     most = matching;
     best = delay;
   }
+  if (!best) return best;
+  // Only axes that do not fork can say how fast they grow.
+  const std::vector<Case> alone = unforked(cases);
+  const bool telling = 2 * alone.size() > cases.size();
+  constexpr double kClearly = 4;  // of the log-likelihood: steadiness is what plants without chance show
+  if (telling && rateLikelihood(alone, likeliestRate(alone, furthestOf(alone)), furthestOf(alone)) > steadyLikelihood(alone, *best) + kClearly) return std::nullopt;
   return best;
 }
 
-/// Stages after which older axes are no longer: the bend of segments = rate * min(stages, lasting), where it fits clearly better than no bend.
-void setRate(OrderSchedule& order, const std::vector<Case>& cases) {
-  std::vector<double> rates;
-  for (const Case& c : cases)
-    if (!c.forks && c.stages > 0) rates.push_back(c.segments / c.stages);
-  order.rate = rates.empty() ? 1 : std::clamp(medianOf(rates), kSlowest, 1.0);
+/// How fast axes grow, and the stages after which older ones are no longer: the bend of segments = rate * min(stages, lasting), where it fits clearly better than no bend.
+void setRate(OrderSchedule& order, const std::vector<Case>& all) {
+  const std::vector<Case> cases = unforked(all);
+  if (cases.empty()) return;
+  order.rate = likeliestRate(cases, furthestOf(cases));
   const auto misfit = [&](double rate, double lasting) {
     double sum = 0;
-    for (const Case& c : cases) sum += c.forks ? 0 : std::pow(c.segments - rate * std::min(c.stages, lasting), 2);
+    for (const Case& c : cases) sum += std::pow(c.segments - rate * std::min(c.stages, lasting), 2);
     return sum;
   };
   constexpr std::size_t kEnough = 8;
-  if (rates.size() < kEnough) return;
-  double furthest = 0;
-  for (const Case& c : cases) furthest = std::max(furthest, c.stages);
+  if (cases.size() < kEnough) return;
+  const double furthest = furthestOf(cases);
   double least = 0.6 * misfit(order.rate, furthest);
   for (double lasting = 1; lasting < 0.75 * furthest; lasting += 1) {
     double xy = 0, xx = 0;
     for (const Case& c : cases) {
-      if (c.forks) continue;
       xy += c.segments * std::min(c.stages, lasting);
       xx += std::min(c.stages, lasting) * std::min(c.stages, lasting);
     }
@@ -101,11 +164,15 @@ void setRate(OrderSchedule& order, const std::vector<Case>& cases) {
   }
 }
 
+/// Where growth is not steady, segments are spread evenly over an axis' stages, each axis a little before or after the others, so that a stage takes as many of them as it made.
 void setBirths(PlantSchedule& plant, const Axis& axis, const OrderSchedule& order, const Case& c, bool grows) {
-  const double start = bearersBirth(plant, axis) + 1;
+  constexpr double kGolden = 0.6180339887498949;
+  const double before = bearersBirth(plant, axis);
+  const double phase = std::fmod(0.5 + kGolden * static_cast<double>(c.axis), 1.0);
   for (std::size_t j = 0; j < axis.segments.size(); ++j) {
-    const double after = order.steady ? order.delay + static_cast<double>(j) : static_cast<double>(j) / std::max(order.rate, c.segments / std::max(1.0, c.stages));
-    plant.birth[placeOf(axis.segments[j])] = std::min(plant.now, start + after);
+    const double own = static_cast<double>(j);
+    const double after = order.steady ? 1 + order.delay + own : std::ceil((own + phase) / std::max(order.rate, c.segments / std::max(1.0, c.stages)));
+    plant.birth[placeOf(axis.segments[j])] = std::min(plant.now, before + std::max(after, own + 1));
   }
   plant.grows[c.axis] = grows;
 }
@@ -128,6 +195,16 @@ bool stillGrows(const OrderSchedule& order, const Case& c) {
   return !order.lasting || c.stages < *order.lasting;
 }
 
+/// Where half of three plants and more are of one age and none is older, clearly smaller ones are no younger: they have ended early.
+void shareAge(Schedule& schedule) {
+  double oldest = 0;
+  for (const PlantSchedule& plant : schedule.plants) oldest = std::max(oldest, plant.now);
+  const auto full = std::count_if(schedule.plants.begin(), schedule.plants.end(), [oldest](const PlantSchedule& p) { return p.now == oldest; });
+  if (schedule.plants.size() < 3 || 2 * static_cast<std::size_t>(full) < schedule.plants.size()) return;
+  for (PlantSchedule& plant : schedule.plants)
+    if (plant.now + 1.5 < oldest) plant.now = oldest;
+}
+
 }  // namespace
 
 const OrderSchedule& Schedule::of(int order) const {
@@ -145,6 +222,7 @@ Schedule scheduleOf(std::span<const MeasuredPlant> plants) {
     schedule.plants.push_back(std::move(own));
     orders = std::max(orders, plant.structure->orders);
   }
+  shareAge(schedule);
   for (int order = 0; order < orders; ++order) {
     const std::vector<Case> cases = casesOf(plants, schedule, order);
     schedule.orders.push_back(orderSchedule(order, cases));

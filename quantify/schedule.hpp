@@ -6,7 +6,8 @@
 /// The plant is `now` stages old: its longest path has now + 1 segments. A branch whose bearer was made at stage b has had now - b stages. An
 /// order is *steady* where a good part of its axes reach, with what stands on them, exactly as many segments as stages since they began, `delay` stages after
 /// their bearer: axes that have all their segments still grow, those that fall short have ended (or forked). Where no such rule shows, as on most real
-/// plants, the order grows at a *rate*: the median of segments a stage, for `lasting` stages if older branches are no longer than that.
+/// plants, or where axes that rest by chance explain the numbers better, the order grows at a *rate*: the likeliest chance of a segment a stage (binomial; axes that
+/// have none yet are not seen), for `lasting` stages if older branches are no longer than that.
 /// Rates of orders above the leader's are the measured apical control. Source: de Reffye's crown analysis in the wording of Barthelemy and Caraglio 2007.
 
 #include "quantify/phyllotaxis.hpp"
@@ -28,7 +29,7 @@ struct OrderSchedule {
 };
 
 struct PlantSchedule {
-  double now = 0;                 ///< stage of the newest segment; the first is 0
+  double now = 0;                 ///< stage of the newest segment; the first is 0. Plants of a set that is of one age, but for a few that are clearly smaller, are all of that age
   std::vector<double> birth;      ///< stage of each segment
   std::vector<bool> grows;        ///< of each axis
 };
