@@ -2,6 +2,7 @@
 
 #include "skeleton3d/camera.hpp"
 #include "skeleton3d/draft_cubes.hpp"
+#include "skeleton3d/polyline.hpp"
 #include "skeleton3d/solve_all.hpp"
 
 #include <glm/geometric.hpp>
@@ -18,8 +19,10 @@ using detail::CubeInView;
 using detail::Cubes;
 using detail::SeenMask;
 
-constexpr double kPrice = 0.7;         ///< what a cube of way costs, in cubes of newly explained middle lines; a stem seen by three views earns 2 or more
+constexpr double kPrice = 0.5;         ///< what a cube of way costs, in cubes of newly explained middle lines; a stem seen by three views earns 2 or more
 constexpr double kStartsWithin = 0.06; ///< of the plant's size, from the origin
+
+Failure stopped() { return fail(ErrorCode::Cancelled, "drafting the stems was stopped"); }
 
 /// The cheapest way from the collar to every cube it reaches.
 struct Ways {
@@ -36,25 +39,24 @@ double costOf(const std::vector<CubeInView>& seen) {
   return 1 + 3 * sum / static_cast<double>(seen.size());
 }
 
-std::ptrdiff_t cubeAt(const Cubes& cubes, glm::ivec3 at) {
-  const auto before = [](glm::ivec3 a, glm::ivec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; };
-  const auto found = std::lower_bound(cubes.at.begin(), cubes.at.end(), at, before);
-  return found != cubes.at.end() && *found == at ? found - cubes.at.begin() : -1;
-}
+bool comesBefore(glm::ivec3 a, glm::ivec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 
-/// A cube and what is around it; gaps of one cube are stepped over at a price.
+/// A cube and what is around it; gaps of one cube are stepped over at a price. Cubes are sorted, so those of one column lie side by side.
 template <class Visit>
 void forNeighbours(const Cubes& cubes, std::size_t i, const Visit& visit) {
+  const glm::ivec3 here = cubes.at[i];
   for (int x = -2; x <= 2; ++x)
-    for (int y = -2; y <= 2; ++y)
-      for (int z = -2; z <= 2; ++z) {
+    for (int y = -2; y <= 2; ++y) {
+      auto next = std::lower_bound(cubes.at.begin(), cubes.at.end(), here + glm::ivec3(x, y, -2), comesBefore);
+      for (; next != cubes.at.end() && next->x == here.x + x && next->y == here.y + y && next->z <= here.z + 2; ++next) {
+        const int z = next->z - here.z;
         const bool far = std::max({std::abs(x), std::abs(y), std::abs(z)}) == 2;
-        if (x == 0 && y == 0 && z == 0) continue;
-        if (const auto j = cubeAt(cubes, cubes.at[i] + glm::ivec3(x, y, z)); j >= 0) visit(static_cast<std::size_t>(j), std::sqrt(double(x * x + y * y + z * z)) * (far ? 3 : 1));
+        if (x != 0 || y != 0 || z != 0) visit(static_cast<std::size_t>(next - cubes.at.begin()), std::sqrt(double(x * x + y * y + z * z)) * (far ? 3 : 1));
       }
+    }
 }
 
-Ways waysFrom(const Cubes& cubes, std::size_t start) {
+Result<Ways> waysFrom(const Cubes& cubes, std::size_t start, const Watch& watch) {
   Ways ways{{}, std::vector<std::ptrdiff_t>(cubes.at.size(), -1)};
   std::vector<double> cost(cubes.at.size(), std::numeric_limits<double>::infinity()), here(cubes.at.size());
   for (std::size_t i = 0; i < here.size(); ++i) here[i] = costOf(cubes.seen[i]);
@@ -69,6 +71,10 @@ Ways waysFrom(const Cubes& cubes, std::size_t start) {
     if (done[i]) continue;
     done[i] = true;
     ways.order.push_back(i);
+    if (ways.order.size() % 4096 == 0) {
+      if (watch.cancelled()) return stopped();
+      watch.report("ways along the stems", 0.5 + 0.2 * static_cast<double>(ways.order.size()) / static_cast<double>(cubes.at.size()));
+    }
     forNeighbours(cubes, i, [&](std::size_t j, double length) {
       const double next = spent + length * 0.5 * (here[i] + here[j]);
       if (next < cost[j]) cost[j] = next, ways.before[j] = static_cast<std::ptrdiff_t>(i), queue.push({next, j});
@@ -153,7 +159,7 @@ Chosen bestWay(const Cubes& cubes, const Ways& ways, const Explained& explained,
   return way;
 }
 
-std::vector<PlantPoint> smoothed(const Cubes& cubes, const std::vector<std::size_t>& way) {
+std::vector<glm::dvec3> smoothed(const Cubes& cubes, const std::vector<std::size_t>& way) {
   std::vector<glm::dvec3> points;
   for (const std::size_t i : way) points.push_back(cubes.centre(i).at);
   for (int round = 0; round < 6; ++round) {
@@ -161,24 +167,7 @@ std::vector<PlantPoint> smoothed(const Cubes& cubes, const std::vector<std::size
     for (std::size_t i = 1; i + 1 < points.size(); ++i) next[i] = 0.25 * (points[i - 1] + 2.0 * points[i] + points[i + 1]);
     points = std::move(next);
   }
-  std::vector<PlantPoint> result;
-  for (const auto& p : points) result.push_back({p});
-  return result;
-}
-
-/// Which points to keep so that the line stays within `tolerance` of all (Ramer, Douglas and Peucker).
-void keepBetween(const std::vector<PlantPoint>& points, std::size_t a, std::size_t b, double tolerance, std::vector<bool>& keep) {
-  double furthest = tolerance;
-  std::size_t which = a;
-  const glm::dvec3 d = points[b].at - points[a].at;
-  for (std::size_t i = a + 1; i < b; ++i) {
-    const double f = glm::dot(d, d) > 0 ? std::clamp(glm::dot(points[i].at - points[a].at, d) / glm::dot(d, d), 0.0, 1.0) : 0;
-    if (const double off = glm::length(points[a].at + f * d - points[i].at); off > furthest) furthest = off, which = i;
-  }
-  if (which == a) return;
-  keep[which] = true;
-  keepBetween(points, a, which, tolerance, keep);
-  keepBetween(points, which, b, tolerance, keep);
+  return points;
 }
 
 /// Half the stem's width where it is seen narrowest: elsewhere something else may lie behind.
@@ -198,15 +187,10 @@ double radiusAt(std::span<const SeenMask> masks, PlantPoint at) {
 DraftStem stemOf(std::span<const SeenMask> masks, const Cubes& cubes, const Chosen& way) {
   DraftStem stem;
   stem.parent = way.parent;
-  const std::vector<PlantPoint> points = smoothed(cubes, way.cubes);
-  std::vector<bool> keep(points.size(), false);
-  keep.front() = keep.back() = true;
-  keepBetween(points, 0, points.size() - 1, 0.6 * cubes.side, keep);
+  const std::vector<glm::dvec3> points = smoothed(cubes, way.cubes);
   double length = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (i > 0) length += glm::length(points[i].at - points[i - 1].at) / cubes.side;
-    if (keep[i]) stem.points.push_back(points[i]), stem.radius.push_back(radiusAt(masks, points[i]));
-  }
+  for (std::size_t i = 1; i < points.size(); ++i) length += glm::length(points[i] - points[i - 1]) / cubes.side;
+  for (const std::size_t i : detail::fewWithin(points, 0.6 * cubes.side)) stem.points.push_back({points[i]}), stem.radius.push_back(radiusAt(masks, {points[i]}));
   stem.sureness = std::clamp(way.gain / (length * (2.2 - kPrice)), 0.0, 1.0);
   return stem;
 }
@@ -233,18 +217,22 @@ Result<std::vector<DraftStem>> draftStems(std::span<const View> views, const std
   options.watch.report("middle lines of the masks", 0.1);
   const auto seen = seenMasks(views, masks);
   if (!seen) return seen.failure();
+  if (options.watch.cancelled()) return stopped();
   options.watch.report("carving", 0.3);
-  const auto cubes = detail::carvedCubes(*seen, options.cubesAcross);
+  const auto cubes = detail::carvedCubes(*seen, options.cubesAcross, options.watch);
   if (!cubes) return cubes.failure();
   const auto collar = collarCube(*cubes, options.cubesAcross);
   if (!collar) return fail(ErrorCode::NoAnswer, "nothing of the plant is near the origin, where its collar should be; check masks and cameras");
   options.watch.report("ways along the stems", 0.5);
-  const Ways ways = waysFrom(*cubes, *collar);
+  const auto ways = waysFrom(*cubes, *collar, options.watch);
+  if (!ways) return ways.failure();
   Explained explained(*seen);
   std::vector<std::ptrdiff_t> owner(cubes->at.size(), -1);
   std::vector<DraftStem> stems;
   while (static_cast<int>(stems.size()) < options.maxStems) {
-    const Chosen way = bestWay(*cubes, ways, explained, owner);
+    if (options.watch.cancelled()) return stopped();
+    options.watch.report("choosing stems", 0.7 + 0.3 * static_cast<double>(stems.size()) / options.maxStems);
+    const Chosen way = bestWay(*cubes, *ways, explained, owner);
     if (way.cubes.size() < 3 || way.gain < options.leastLength * options.cubesAcross) break;
     for (const std::size_t i : way.cubes) {
       if (owner[i] < 0) owner[i] = static_cast<std::ptrdiff_t>(stems.size());

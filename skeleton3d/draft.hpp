@@ -42,12 +42,13 @@ struct PlantBox {
   glm::dvec2 to{0, 0};
 };
 
-/// The plant in `photo` by the colours inside and outside `box` (OpenCV's grabCut). Fails with NoAnswer where nothing is left.
-[[nodiscard]] Result<Mask> maskByColour(const Photo& photo, const PlantBox& box);
+/// The plant in `photo` by the colours inside and outside `box` (OpenCV's grabCut on half a million pixels at most, its border then by
+/// each pixel's own colour). Fails with BadInput for a box or photo of next to no size, with NoAnswer where nothing is left, with Cancelled.
+[[nodiscard]] Result<Mask> maskByColour(const Photo& photo, const PlantBox& box, const Watch& watch = {});
 
 struct DraftOptions {
-  int cubesAcross = 220;        ///< cubes along the longest side of the plant
-  double leastLength = 0.015;    ///< of a stem, as a share of the plant's size
+  int cubesAcross = 350;        ///< cubes along the plant's reach; fewer where a leafy mask would leave more than half a million
+  double leastLength = 0.012;    ///< of a stem, as a share of the plant's size
   int maxStems = 400;
   Watch watch = {};
 };

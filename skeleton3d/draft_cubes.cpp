@@ -10,8 +10,6 @@
 namespace axil::skeleton3d::detail {
 namespace {
 
-constexpr std::size_t kMaxCubes = 3'000'000;
-
 double pixelsPerUnit(const Camera& camera, PlantPoint at) {
   return camera.model == CameraModel::Orthographic ? camera.scale_px_per_unit : camera.focal_px->x / std::max(toView(camera, at).at.z, 1e-9);
 }
@@ -48,7 +46,7 @@ double reachOf(std::span<const SeenMask> masks) {
 }
 
 void split(std::span<const SeenMask> masks, const Cubes& cubes, glm::ivec3 corner, int size, std::vector<glm::ivec3>& found) {
-  if (found.size() > kMaxCubes) return;
+  if (found.size() > kMostCubes) return;
   const PlantPoint middle{cubes.origin + cubes.side * (glm::dvec3(corner) + 0.5 * size)};
   // The smallest cubes count where their inner ball touches the mask; larger ones where any corner could.
   if (!mayHold(masks, middle, size == 1 ? 0.6 * cubes.side : 0.9 * size * cubes.side)) return;
@@ -60,18 +58,29 @@ void split(std::span<const SeenMask> masks, const Cubes& cubes, glm::ivec3 corne
   for (int k = 0; k < 8; ++k) split(masks, cubes, corner + half * glm::ivec3(k & 1, k >> 1 & 1, k >> 2 & 1), half, found);
 }
 
-}  // namespace
-
-Result<Cubes> carvedCubes(std::span<const SeenMask> masks, int cubesAcross) {
+Cubes carvedWith(std::span<const SeenMask> masks, double reach, int cubesAcross) {
   Cubes cubes;
-  const double reach = reachOf(masks);
-  if (!(reach > 0) || !std::isfinite(reach)) return fail(ErrorCode::NoAnswer, "the masks are empty; give masks in which the plant is not 0");
   int size = 1;
-  while (size < 2.0 * reach / (reach / 1.3) * cubesAcross) size *= 2;
+  while (size < 2.6 * cubesAcross) size *= 2;
   cubes.side = reach / 1.3 / cubesAcross;
   cubes.origin = glm::dvec3(-0.5 * size * cubes.side);
   split(masks, cubes, {0, 0, 0}, size, cubes.at);
-  if (cubes.at.size() > kMaxCubes) return fail(ErrorCode::LimitReached, "the masks leave too much space; give masks of more views or fewer cubes");
+  return cubes;
+}
+
+}  // namespace
+
+Result<Cubes> carvedCubes(std::span<const SeenMask> masks, int cubesAcross, const Watch& watch) {
+  constexpr int kFewest = 24;
+  const double reach = reachOf(masks);
+  if (!(reach > 0) || !std::isfinite(reach)) return fail(ErrorCode::NoAnswer, "the masks are empty; give masks in which the plant is not 0");
+  Cubes cubes;
+  for (int across = cubesAcross;; across = across * 3 / 4) {
+    if (watch.cancelled()) return fail(ErrorCode::Cancelled, "drafting the stems was stopped");
+    cubes = carvedWith(masks, reach, across);
+    if (cubes.at.size() <= kMostCubes) break;
+    if (across < kFewest) return fail(ErrorCode::LimitReached, "the masks leave too much space to find stems in; give masks of more views or of stems without leaves");
+  }
   if (cubes.at.empty()) return fail(ErrorCode::NoAnswer, "no place of space is inside all masks; check that masks, views and cameras belong together");
   std::sort(cubes.at.begin(), cubes.at.end(), [](glm::ivec3 a, glm::ivec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; });
   for (std::size_t i = 0; i < cubes.at.size(); ++i) {

@@ -29,7 +29,9 @@ struct Cubes {
   [[nodiscard]] PlantPoint centre(std::size_t i) const { return {origin + side * (glm::dvec3(at[i]) + 0.5)}; }
 };
 
-/// Fails with NoAnswer where nothing is common to all masks.
-[[nodiscard]] Result<Cubes> carvedCubes(std::span<const SeenMask> masks, int cubesAcross);
+/// `cubesAcross` cubes along the plant's reach, or fewer where that would be more than `kMostCubes` in all: masks of a leafy plant leave
+/// much space. Fails with NoAnswer where nothing is common to all masks, with Cancelled.
+inline constexpr std::size_t kMostCubes = 500'000;
+[[nodiscard]] Result<Cubes> carvedCubes(std::span<const SeenMask> masks, int cubesAcross, const Watch& watch);
 
 }  // namespace axil::skeleton3d::detail

@@ -1,30 +1,31 @@
 #include "skeleton3d/mask_lines.hpp"
 
-#include <opencv2/imgproc.hpp>
-
 #include <array>
+#include <opencv2/imgproc.hpp>
 
 namespace axil::skeleton3d::detail {
 namespace {
 
-/// One of the two passes of Zhang and Suen's thinning; whether anything was taken away.
-bool thinOnce(cv::Mat& m, bool second) {
-  std::vector<cv::Point> gone;
-  for (int y = 1; y + 1 < m.rows; ++y)
-    for (int x = 1; x + 1 < m.cols; ++x) {
-      if (m.at<std::uint8_t>(y, x) == 0) continue;
-      const std::array<int, 9> p{m.at<std::uint8_t>(y - 1, x), m.at<std::uint8_t>(y - 1, x + 1), m.at<std::uint8_t>(y, x + 1), m.at<std::uint8_t>(y + 1, x + 1), m.at<std::uint8_t>(y + 1, x),
-                                 m.at<std::uint8_t>(y + 1, x - 1), m.at<std::uint8_t>(y, x - 1), m.at<std::uint8_t>(y - 1, x - 1), m.at<std::uint8_t>(y - 1, x)};
-      int count = 0, changes = 0;
-      for (std::size_t i = 0; i < 8; ++i) {
-        count += p[i];
-        changes += p[i] == 0 && p[i + 1] == 1;
-      }
-      if (count < 2 || count > 6 || changes != 1) continue;
-      const bool free = second ? p[0] * p[2] * p[6] == 0 && p[0] * p[4] * p[6] == 0 : p[0] * p[2] * p[4] == 0 && p[2] * p[4] * p[6] == 0;
-      if (free) gone.push_back({x, y});
+/// One of the two passes of Zhang and Suen's thinning over `left`, the pixels that are still there; whether any was taken away.
+bool thinOnce(cv::Mat& m, std::vector<cv::Point>& left, bool second) {
+  std::vector<cv::Point> gone, stay;
+  for (const cv::Point& place : left) {
+    const int x = place.x, y = place.y;
+    stay.push_back(place);
+    const std::array<int, 9> p{m.at<std::uint8_t>(y - 1, x),     m.at<std::uint8_t>(y - 1, x + 1), m.at<std::uint8_t>(y, x + 1),
+                               m.at<std::uint8_t>(y + 1, x + 1), m.at<std::uint8_t>(y + 1, x),     m.at<std::uint8_t>(y + 1, x - 1),
+                               m.at<std::uint8_t>(y, x - 1),     m.at<std::uint8_t>(y - 1, x - 1), m.at<std::uint8_t>(y - 1, x)};
+    int count = 0, changes = 0;
+    for (std::size_t i = 0; i < 8; ++i) {
+      count += p[i];
+      changes += p[i] == 0 && p[i + 1] == 1;
     }
+    if (count < 2 || count > 6 || changes != 1) continue;
+    const bool free = second ? p[0] * p[2] * p[6] == 0 && p[0] * p[4] * p[6] == 0 : p[0] * p[2] * p[4] == 0 && p[2] * p[4] * p[6] == 0;
+    if (free) gone.push_back(place), stay.pop_back();
+  }
   for (const cv::Point& g : gone) m.at<std::uint8_t>(g) = 0;
+  left = std::move(stay);
   return !gone.empty();
 }
 
@@ -42,13 +43,16 @@ MaskLines linesOf(const Mask& mask) {
   cv::Mat plant(mask.height, mask.width, CV_8UC1);
   for (int y = 0; y < mask.height; ++y)
     for (int x = 0; x < mask.width; ++x)
-      plant.at<std::uint8_t>(y, x) = mask.plant[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width) + static_cast<std::size_t>(x)] != 0 ? 1 : 0;
+      plant.at<std::uint8_t>(y, x) =
+          mask.plant[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width) + static_cast<std::size_t>(x)] != 0 ? 1 : 0;
   cv::Mat toPlant, inside, toLine, labels, thin = plant.clone();
   cv::distanceTransform(1 - plant, toPlant, cv::DIST_L2, cv::DIST_MASK_5);
   cv::distanceTransform(plant, inside, cv::DIST_L2, cv::DIST_MASK_5);
   thin.row(0).setTo(0), thin.row(thin.rows - 1).setTo(0), thin.col(0).setTo(0), thin.col(thin.cols - 1).setTo(0);
+  std::vector<cv::Point> left;
+  cv::findNonZero(thin, left);
   for (bool more = true; more;) {
-    const bool first = thinOnce(thin, false), second = thinOnce(thin, true);
+    const bool first = thinOnce(thin, left, false), second = thinOnce(thin, left, true);
     more = first || second;
   }
   cv::distanceTransform(1 - thin, toLine, labels, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);

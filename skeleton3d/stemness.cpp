@@ -67,7 +67,7 @@ StemCell ridgeAt(const Scale& scale, int x, int y) {
   const float slope = scale.gx.ptr<cv::Vec3f>(y)[x][c] * across[0] + scale.gy.ptr<cv::Vec3f>(y)[x][c] * across[1];
   const float off = -slope / bend.value;
   if (std::abs(off) > 1) return {};
-  const double mx = x + off * across[0], my = y + off * across[1], dx = scale.sigma * across[0], dy = scale.sigma * across[1];
+  const double mx = x + static_cast<double>(off * across[0]), my = y + static_cast<double>(off * across[1]), dx = scale.sigma * across[0], dy = scale.sigma * across[1];
   const cv::Vec3f in = bilinear(scale.gx, mx - dx, my - dy) * across[0] + bilinear(scale.gy, mx - dx, my - dy) * across[1];
   const cv::Vec3f out = -(bilinear(scale.gx, mx + dx, my + dy) * across[0] + bilinear(scale.gy, mx + dx, my + dy) * across[1]);
   const double a = cv::norm(in), b = cv::norm(out), alike = a * b > 0 ? in.dot(out) / (a * b) : 0;
