@@ -34,6 +34,17 @@ struct Kept {
   std::shared_ptr<const GrownGrammar> grown;
 };
 
+/// Clicks that were left out are said already.
+skeleton3d::Doubts doubtsBeside(const Following& following) {
+  skeleton3d::Doubts doubts = skeleton3d::doubtsOf(*following.skeleton.good);
+  if (!following.measured.good) return doubts;
+  const auto& leftOut = following.measured.good->suspects;
+  std::erase_if(doubts.clicks, [&](const skeleton3d::DoubtfulClick& click) {
+    return std::any_of(leftOut.begin(), leftOut.end(), [&](const skeleton3d::SuspectClick& s) { return s.node == click.node && s.view == click.view; });
+  });
+  return doubts;
+}
+
 class Follow {
  public:
   std::shared_ptr<const Following> operator()(const FollowQuestion& question) {
@@ -45,6 +56,7 @@ class Follow {
     following->skeleton = derived_.skeleton(question.open);
     following->measurements = derived_.measurements(question.open);
     const auto part = following->skeleton.trouble ? showPart(*following, question.open) : std::nullopt;
+    if (following->skeleton.good) following->doubts = doubtsBeside(*following);
     if (following->said && following->measurements.good)
       following->contradictions = quantify::contradictionsWith(document::decided(*following->said, question.open.project.traits), *following->measurements.good);
     following->photos = derived_.photoTroubles(question.open);

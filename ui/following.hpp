@@ -9,6 +9,7 @@
 #include "simeco/environment.hpp"
 #include "simeco/growth.hpp"
 #include "simeco/language.hpp"
+#include "skeleton3d/doubts.hpp"
 #include "ui/worker.hpp"
 
 #include <array>
@@ -42,6 +43,7 @@ struct Following {
   std::vector<document::PhotoTrouble> photos;
   std::array<std::shared_ptr<const GrownGrammar>, 3> grammars;       ///< by GrammarKind; null: there has not been one yet
   std::array<std::optional<Error>, 3> grammarTroubles;
+  skeleton3d::Doubts doubts;             ///< what to look at again in the skeleton; clicks that were left out are not among them
   bool partly = false;                   ///< skeleton and all after it are of the part that can be measured already
   double seconds = 0;                    ///< how long it took
 

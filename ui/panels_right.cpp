@@ -208,7 +208,7 @@ void timeline(const Panel& panel, Area area) {
   const bool predicts = state.kind == document::GrammarKind::Predictive && measured != nullptr && measured->end < end;
   const double measuredEnd = predicts ? measured->end : end;
   list.AddRectFilled({x, middle - track / 2}, {at(std::min(shown, measuredEnd)), middle + track / 2}, p.accent, track / 2);
-  if (predicts && shown > measuredEnd) list.AddRectFilled({at(measuredEnd), middle - track / 2}, {at(shown), middle + track / 2}, p.warning, track / 2);
+  if (predicts && shown > measuredEnd) list.AddRectFilled({at(measuredEnd), middle - track / 2}, {at(shown), middle + track / 2}, p.predicted, track / 2);
   if (predicts) {
     list.AddLine({at(measuredEnd), middle - panel.px(12)}, {at(measuredEnd), middle + panel.px(12)}, p.quiet, 1);
     ImGui::PushFont(font(Face::Small));

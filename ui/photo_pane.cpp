@@ -1,3 +1,4 @@
+#include "base/text.hpp"
 #include "ui/epipolar.hpp"
 #include "ui/photo_pane_interop.hpp"
 
@@ -265,6 +266,41 @@ void drawGhost(const Pane& pane) {
   if (meaning.kind != ClickKind::Nothing && meaning.kind != ClickKind::Select) pane.list.AddCircle(mouse, pane.panel.px(4), colour, 16, pane.panel.px(1.6f));
 }
 
+void doubtLabel(const Pane& pane, ImVec2 at, const std::string& text) {
+  ImGui::PushFont(font(Face::Small));
+  chip(pane.list, {at.x + pane.panel.px(9), at.y + pane.panel.px(5)}, text, withAlpha(pane.panel.palette.panel, 215), pane.panel.palette.warning, pane.panel.px(4));
+  ImGui::PopFont();
+}
+
+/// What does not fit together, where it is: how far a click is from where the others put its node, and leaps along a stem.
+void drawDoubts(const Pane& pane) {
+  const Following& following = pane.panel.following;
+  const Colour ink = pane.panel.palette.warning;
+  const auto mark = [&](NodeId node, double off_px) {
+    const auto place = document::nodeWithId(pane.panel.project, node);
+    if (!place || !pane.panel.project.nodes[*place].node.clicks.contains(pane.name())) return;
+    const ImVec2 click = pane.lens.onScreen(pane.panel.project.nodes[*place].node.clicks.at(pane.name()));
+    const skeleton3d::Node* solved = solvedNode(pane.panel, node);
+    const skeleton3d::Camera* camera = cameraOf(pane.panel, pane.name());
+    if (solved != nullptr && camera != nullptr && skeleton3d::isInFront(*camera, solved->position))
+      pane.list.AddLine(click, pane.lens.onScreen(skeleton3d::project(*camera, solved->position)), ink, pane.panel.px(2));
+    pane.list.AddCircle(click, pane.panel.px(11), ink, 24, pane.panel.px(2));
+    doubtLabel(pane, click, fixed(off_px, 0) + " px");
+  };
+  for (const skeleton3d::DoubtfulClick& click : following.doubts.clicks)
+    if (click.view == pane.name()) mark(click.node, click.off_px);
+  if (following.measured.good)
+    for (const skeleton3d::SuspectClick& suspect : following.measured.good->suspects)
+      if (suspect.view == pane.name()) mark(suspect.node, suspect.off_px);
+  for (const skeleton3d::DoubtfulSegment& segment : following.doubts.segments) {
+    const auto from = seen(pane, segment.from), to = seen(pane, segment.to);
+    if (!from || !to) continue;
+    const ImVec2 a = pane.lens.onScreen(from->at), b = pane.lens.onScreen(to->at);
+    dashed(pane.list, a, b, ink, pane.panel.px(3), pane.panel.px(9));
+    doubtLabel(pane, {(a.x + b.x) / 2, (a.y + b.y) / 2}, filled(pane.panel.t("leap"), {{"times", fixed(segment.times, 0)}}));
+  }
+}
+
 /// A photo that has not been moved fills its pane.
 PhotoFrame frameOf(const Panel& panel, const std::string& view, glm::dvec2 photo, Area area) {
   PhotoFrame frame = panel.state.frames[view];
@@ -345,6 +381,7 @@ Taken photoPane(const Panel& panel, int number, Area area) {
   const auto chosen = panel.state.selection.node ? stemOf(panel.project, *panel.state.selection.node) : std::nullopt;
   for (const auto& stem : panel.project.stems) drawStem(pane, stem.stem, stem.stem.id == chosen);
   drawGathered(pane);
+  if (panel.state.way == Way::Stems) drawDoubts(pane);
   if (panel.state.selection.node) drawSelected(pane, *panel.state.selection.node);
   if (const ProposedStem* proposed = panel.proposals.in(view.view.name)) drawProposal(pane, *proposed);
   else drawCandidates(pane);

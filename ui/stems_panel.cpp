@@ -2,6 +2,7 @@
 #include "ui/widgets_interop.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace axil::ui {
 namespace {
@@ -14,6 +15,13 @@ std::vector<std::string> missing(const Panel& panel) {
   if (skeleton.trouble) lines.insert(lines.end(), skeleton.trouble->details.begin(), skeleton.trouble->details.end());
   if (skeleton.good && !skeleton.trouble)
     for (const auto& node : skeleton.good->incomplete) lines.push_back(filled(panel.t("node_waits"), {{"node", std::to_string(node.id.value)}}));
+  for (const auto& click : panel.following.doubts.clicks)
+    lines.push_back(filled(panel.t("doubt_click"), {{"node", std::to_string(click.node.value)}, {"view", click.view}, {"px", std::to_string(std::lround(click.off_px))}}));
+  if (panel.following.measured.good)
+    for (const auto& click : panel.following.measured.good->suspects)
+      lines.push_back(filled(panel.t("doubt_left_out"), {{"node", std::to_string(click.node.value)}, {"view", click.view}, {"px", std::to_string(std::lround(click.off_px))}}));
+  for (const auto& leap : panel.following.doubts.segments)
+    lines.push_back(filled(panel.t("doubt_leap"), {{"stem", std::to_string(leap.stem.value)}, {"to", std::to_string(leap.to.value)}, {"times", std::to_string(std::lround(leap.times))}}));
   return lines;
 }
 

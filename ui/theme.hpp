@@ -28,6 +28,7 @@ struct Palette {
   Colour accent;
   Colour onAccent;
   Colour accentSoft;  ///< behind what is chosen
+  Colour predicted;   ///< what goes on beyond the measured plant
   Colour warning;
   Colour error;
   Colour photo;       ///< around photos
