@@ -421,6 +421,11 @@ Result<void> HeadlessStudio::run(std::string_view lines) {
   return {};
 }
 
+void HeadlessStudio::drawFrame() {
+  inside_->frame(Inside::Drawing::Done);
+  glFinish();
+}
+
 Result<render::Image> HeadlessStudio::picture() {
   if (auto waited = inside_->wait(); !waited) return waited.failure();
   return inside_->canvas->image();

@@ -39,6 +39,8 @@ class HeadlessStudio {
   [[nodiscard]] Studio& studio();
   /// Fails at the first line that cannot be done: `line 12: ...`.
   [[nodiscard]] Result<void> run(std::string_view lines);
+  /// One frame, drawn to its last pixel: what the window does sixty times a second.
+  void drawFrame();
   /// What the window shows, when all in the background is done.
   [[nodiscard]] Result<render::Image> picture();
 

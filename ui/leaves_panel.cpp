@@ -45,6 +45,30 @@ bool lengthRow(const Panel& panel, const char* key, std::optional<double>& lengt
   });
 }
 
+constexpr int kMostLeafNodes = 10'000;
+
+/// How long the stem is, as measured; nothing before it is.
+std::optional<double> lengthOf(const Panel& panel, document::StemId stem) {
+  double length = 0;
+  if (panel.following.measurements.good)
+    for (const quantify::Segment& segment : panel.following.measurements.good->segments)
+      if (segment.stem == stem) length += segment.length;
+  return length > 0 ? std::optional(length) : std::nullopt;
+}
+
+/// Leaf nodes for each unit of the stem's length; gives their number where another density is wanted.
+std::optional<int> densityRow(const Panel& panel, document::StemId stem, int nodes) {
+  const auto length = lengthOf(panel, stem);
+  if (!length) return std::nullopt;
+  double density = nodes / *length;
+  ImGui::TextUnformatted(panel.t("leaf_density"));
+  ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.52f);
+  ImGui::SetNextItemWidth(-1);
+  ImGui::InputDouble("##density", &density, 0, 0, ("%.3g / " + panel.project.unit).c_str());
+  if (!ImGui::IsItemDeactivatedAfterEdit() || !(density > 0)) return std::nullopt;
+  return std::clamp(static_cast<int>(std::lround(std::min(density * *length, 1.0 * kMostLeafNodes))), 1, kMostLeafNodes);
+}
+
 bool editLeaves(const Panel& panel, quantify::LeafArrangement& draft) {
   bool changed = combo("##arrangement", keywords::arrangementNames(), draft.arrangement, "–");
   std::string shape = draft.shape;
@@ -55,7 +79,8 @@ bool editLeaves(const Panel& panel, quantify::LeafArrangement& draft) {
     ImGui::TextUnformatted(panel.t("leaf_nodes"));
     ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.52f);
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderInt("##nodes", &nodes, 1, 40)) draft.nodes = std::clamp(nodes, 1, 10'000), changed = true;
+    if (ImGui::SliderInt("##nodes", &nodes, 1, 40)) draft.nodes = std::clamp(nodes, 1, kMostLeafNodes), changed = true;
+    if (const auto wanted = densityRow(panel, draft.stem, nodes)) draft.nodes = *wanted, changed = true;
   }
   changed = angleRow(panel, "leaf_angle", draft.angle, 55, 0, 180) || changed;
   changed = angleRow(panel, "leaf_roll", draft.roll, 0, -180, 180) || changed;

@@ -2,11 +2,14 @@
 #include "document/session.hpp"
 #include "skeleton3d/camera.hpp"
 #include "ui/following.hpp"
+#include "ui/headless.hpp"
 #include "ui/photo_tiles.hpp"
 
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 namespace axil::ui {
 namespace {
@@ -60,6 +63,42 @@ void clickToGrammar(benchmark::State& state) {
   state.counters["lines"] = static_cast<double>(lines);
 }
 BENCHMARK(clickToGrammar)->Arg(500)->Unit(benchmark::kMillisecond);
+
+/// A 24-megapixel photo with something to see, as the plainest of files.
+void writePhoto(const std::filesystem::path& file) {
+  constexpr std::uint32_t kWidth = 4000, kHeight = 6000, kHeader = 54;
+  std::string bytes(kHeader + std::size_t{kWidth} * kHeight * 3, '\0');
+  const auto put = [&](std::size_t at, std::uint32_t value, int count) {
+    for (int i = 0; i < count; ++i) bytes[at + static_cast<std::size_t>(i)] = static_cast<char>(value >> (8 * i) & 255);
+  };
+  bytes[0] = 'B', bytes[1] = 'M';
+  put(2, static_cast<std::uint32_t>(bytes.size()), 4), put(10, kHeader, 4), put(14, 40, 4), put(18, kWidth, 4), put(22, kHeight, 4), put(26, 1, 2), put(28, 24, 2);
+  for (std::size_t i = kHeader; i < bytes.size(); ++i) bytes[i] = static_cast<char>((i / 3 % kWidth / 7 * 31 + i / 3 / kWidth / 5 * 17) & 255);
+  std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+/// A frame of the whole window while a 24-megapixel photo is moved under three panes of such photos; argument: percent of zoom, 0 for the whole photo.
+void frameWhilePanning(benchmark::State& state) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "axil_bench_photos";
+  std::filesystem::create_directories(folder);
+  for (const char* view : {"front", "right", "top"})
+    if (!std::filesystem::exists(folder / (std::string(view) + ".bmp"))) writePhoto(folder / (std::string(view) + ".bmp"));
+  auto headless = HeadlessStudio::open({}, 1440, 900);
+  if (!headless) return state.SkipWithError(headless.error().message.c_str());
+  for (const char* view : {"front", "right", "top"}) (void)headless->studio().runLine("add_view " + std::string(view) + " \"" + (folder / (std::string(view) + ".bmp")).string() + "\"");
+  headless->studio().state().trace = false;
+  if (auto shown = headless->run("ui way stems\nui wait\n"); !shown) return state.SkipWithError(shown.error().message.c_str());
+  const double zoom = static_cast<double>(state.range(0)) / 100;
+  double at = 0;
+  for (auto _ : state) {
+    at += 6;
+    if (zoom > 0)
+      for (const char* view : {"front", "right", "top"}) headless->studio().state().frames[view] = {.zoom = zoom, .centre = {1500 + std::fmod(at, 1200.0), 3000}};
+    headless->drawFrame();
+  }
+  std::filesystem::remove_all(folder);
+}
+BENCHMARK(frameWhilePanning)->Arg(0)->Arg(30)->Arg(100)->Arg(300)->Unit(benchmark::kMillisecond);
 
 /// What a 24-megapixel photo costs before it can be shown; in the background.
 void levelsOfAPhoto(benchmark::State& state) {
