@@ -247,7 +247,7 @@ std::size_t ParagraphReader::beforeEach(std::size_t i) const {
 
 // "per locule", "per side" from the words before a number.
 std::string ParagraphReader::unitOfEach(std::size_t i) const {
-  for (std::size_t at = i; at > scope_.organEnd; --at) {
+  for (std::size_t at = i; at > scope_.organEnd && at + 8 > i; --at) {
     const std::size_t each = beforeEach(at);
     if (each == at) continue;
     const Concept* noun = nounAt(each + 1);

@@ -38,7 +38,8 @@ std::optional<SingleNumber> wholeHan(const Tokens& tokens, std::size_t first) {
   double sum = 0;
   int digit = -1;
   std::size_t at = first;
-  for (; at < tokens.size() && tokens[at].kind == TokenKind::Han; ++at) {
+  constexpr std::size_t longest = 12;  // characters of a number; an endless one must not be read again from each of them
+  for (; at < tokens.size() && at < first + longest && tokens[at].kind == TokenKind::Han; ++at) {
     if (const int next = digitOf(tokens[at].text); next >= 0) {
       if (digit > 0) break;  // 三四: two numbers side by side
       digit = next;
