@@ -1,5 +1,6 @@
 #include "app/environment_options.hpp"
 
+#include "base/files.hpp"
 #include "base/text.hpp"
 
 #include <CLI/CLI.hpp>
@@ -44,7 +45,16 @@ constexpr NumberOption kNumbers[] = {{"--soil-ph", &simeco::Environment::soilPH,
                                      {"--day-light", &simeco::Environment::dayLight, "Hours of light a day; best at 12"},
                                      {"--temperature", &simeco::Environment::temperature, "Degrees Celsius; best at 22"}};
 
-constexpr std::string_view kSphere = "sphere:", kBox = "box:";
+constexpr std::string_view kSphere = "sphere:", kBox = "box:", kMesh = "mesh:";
+
+simeco::Obstacle meshIn(const std::string& path) {
+  constexpr std::uintmax_t mostBytes = 100'000'000;
+  const auto text = readFile(path, mostBytes);
+  if (!text) throw CLI::ValidationError("--obstacle", text.error().message);
+  auto mesh = simeco::obstacleFromObj(*text);
+  if (!mesh) throw CLI::ValidationError("--obstacle", "'" + path + "': " + mesh.error().message);
+  return *std::move(mesh);
+}
 
 std::optional<simeco::Obstacle> obstacleIn(const std::string& text) {
   if (text.starts_with(kSphere)) {
@@ -55,6 +65,7 @@ std::optional<simeco::Obstacle> obstacleIn(const std::string& text) {
     const auto n = numbersIn(std::string_view(text).substr(kBox.size()), 6);
     if (n) return simeco::BoxObstacle{{{(*n)[0], (*n)[1], (*n)[2]}}, {{(*n)[3], (*n)[4], (*n)[5]}}};
   }
+  if (text.starts_with(kMesh)) return meshIn(text.substr(kMesh.size()));
   return std::nullopt;
 }
 
@@ -73,10 +84,10 @@ void addEnvironment(CLI::App& sub, simeco::Environment& environment) {
   sub.add_option_function<std::vector<std::string>>("--obstacle", [&environment](const std::vector<std::string>& texts) {
         for (const std::string& text : texts) {
           const auto obstacle = obstacleIn(text);
-          if (!obstacle) throw CLI::ValidationError("--obstacle", "takes sphere:x,y,z,radius or box:x,y,z,x,y,z, not '" + text + "'");
+          if (!obstacle) throw CLI::ValidationError("--obstacle", "takes sphere:x,y,z,radius, box:x,y,z,x,y,z or mesh:file.obj, not '" + text + "'");
           environment.obstacles.push_back(*obstacle);
         }
-      }, "Something solid that nothing grows through; may be given again")->option_text("sphere:X,Y,Z,R | box:X,Y,Z,X,Y,Z")->allow_extra_args(false)->group(kGroup);
+      }, "Something solid that nothing grows through; may be given again")->option_text("sphere:X,Y,Z,R | box:X,Y,Z,X,Y,Z | mesh:FILE.obj")->allow_extra_args(false)->group(kGroup);
 }
 
 }  // namespace axil::app

@@ -18,6 +18,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -63,6 +64,10 @@ struct EnvironmentChange {
 
 /// More triangles than these, all obstacles together, are refused.
 inline constexpr std::size_t kMostObstacleTriangles = 2'000'000;
+
+/// The mesh of an .obj text. Fails with BadInput, naming the line, where a point or a corner is no number or a point is not there; with
+/// NoAnswer where there is no face.
+[[nodiscard]] Result<MeshObstacle> obstacleFromObj(std::string_view text);
 
 [[nodiscard]] Result<void> checkEnvironment(const Environment& environment);
 /// The same for each, and that their times are finite, at least 0 and ascending.

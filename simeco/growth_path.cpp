@@ -10,8 +10,10 @@ namespace {
 
 /// How strongly an obstacle that is touched pushes, as a pull.
 constexpr double kPush = 12;
-/// Heading straighter at an obstacle than this sine, a tip leans to the side of its r-axis: straight on there is no way to turn.
+/// Heading straighter at an obstacle than this sine, a tip leans to the side of its r-axis.
 constexpr double kHeadOn = 0.05;
+/// The sine by which a tip that was turned aside heads away from the obstacle.
+constexpr double kAside = 0.1;
 /// Of the room that is left, the part a step may use up, so that rounding never closes it.
 constexpr double kKeep = 1 - 1e-6;
 
@@ -42,15 +44,20 @@ StemFrame pulled(const StemFrame& frame, const glm::dvec3& pull, double share) {
   return turnedFrame(frame, PlantDirection::along(glm::cross(frame.direction.unit(), goal.unit())), Angle::fromRadians(angle - left));
 }
 
-/// What an obstacle within sight adds to the pull of a tip with `frame`.
+/// What an obstacle within sight adds to the pull of a tip with `frame`: a tip that heads for it is turned aside, until it runs along it and
+/// a little away from it. So a shoot that meets a wall follows the wall and is not thrown back.
 glm::dvec3 pushAt(const glm::dvec3& at, const StemFrame& frame, const PathStep& step, const PathRules& rules) {
   if (step.obstacles == nullptr || !(rules.sight > 0)) return {0, 0, 0};
   const auto nearest = step.obstacles->nearest(at, at, rules.sight);
   if (!nearest || !(nearest->distance > 0)) return {0, 0, 0};
+  const glm::dvec3 away = (at - nearest->at) / nearest->distance, heading = frame.direction.unit();
+  const double outwards = glm::dot(away, heading);
+  if (outwards >= kAside) return {0, 0, 0};
+  glm::dvec3 along = heading - away * outwards;
+  // Straight on there is no way to turn but that of the r-axis.
+  if (glm::length(along) < kHeadOn) along = frame.rAxis.unit() - away * glm::dot(away, frame.rAxis.unit());
   const double closeness = 1 - nearest->distance / rules.sight;
-  glm::dvec3 away = (at - nearest->at) / nearest->distance;
-  if (glm::length(glm::cross(away, frame.direction.unit())) < kHeadOn) away += frame.rAxis.unit();
-  return away * (kPush * closeness * closeness);
+  return glm::normalize(glm::normalize(along) + away * kAside) * (kPush * closeness * closeness);
 }
 
 /// Straight ways out of one point.

@@ -8,7 +8,7 @@
 /// strong pull turns the heading up to its own direction and never past it. The tip runs along the heading in the middle of the step.
 /// A step depends on what was there when it began, never on what comes later; growing on only lengthens the last piece.
 ///
-/// Near an obstacle the pull points away from it as well. A step that would still come nearer to it than the organ's
+/// Near an obstacle that it heads for, a tip is pulled aside as well, along the obstacle. A step that would still come nearer to it than the organ's
 /// clearance slides along it; where no way is left the organ ends. A step is tested with the greatest length it can have, exactly, along
 /// all of it, so no step is long enough to jump through a wall.
 /// Internal to growth. Sources: docs/simeco.md, "Growth as a particle"; The Algorithmic Beauty of Plants, section 2.3.4 (tropism).

@@ -80,6 +80,13 @@ class Environment(Case):
         low, high = [x - 0.06 for x in ahead], [x + 0.06 for x in ahead]
         for node in self.nodes("--obstacle", "box:" + ",".join(map(str, low + high))):
             self.assertFalse(all(l + 1e-6 < x < h - 1e-6 for l, x, h in zip(low, node, high)), node)
+        # The same box as a mesh of six squares.
+        obj = "".join(f"v {(low, high)[i & 1][0]} {(low, high)[i >> 1 & 1][1]} {(low, high)[i >> 2][2]}\n" for i in range(8))
+        (self.folder / "box.obj").write_text(obj + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n")
+        nodes = self.nodes("--obstacle", f"mesh:{self.folder / 'box.obj'}")
+        self.assertNotEqual(nodes, self.nodes())
+        for node in nodes:
+            self.assertFalse(all(l + 1e-6 < x < h - 1e-6 for l, x, h in zip(low, node, high)), node)
 
     def test_an_obstacle_is_in_the_picture(self):
         size = ("--width", 60, "--height", 80)
@@ -89,7 +96,7 @@ class Environment(Case):
 
     def test_what_makes_no_sense_is_said(self):
         for words, says in ((("--wind", "1,2"), "three numbers"), (("--light", "a,b,c"), "three numbers"), (("--obstacle", "cone:1,2,3"), "sphere:"),
-                            (("--obstacle", "sphere:1,2,3"), "sphere:"), (("--temperature", "warm"), "temperature")):
+                            (("--obstacle", "sphere:1,2,3"), "sphere:"), (("--obstacle", "mesh:nowhere.obj"), "nowhere.obj"), (("--temperature", "warm"), "temperature")):
             status, _, err = axil("grow", self.plant, "-o", self.folder / "x.json", *words)
             self.assertEqual(status, 2, words)
             self.assertIn(says, err)

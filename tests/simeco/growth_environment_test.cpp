@@ -214,6 +214,8 @@ TEST(GrowthEnvironment, AStemThatMeetsAWallGoesAroundItAndKeepsItsLength) {
   EXPECT_NEAR(arcLength(stem), 5, 1e-12);
   EXPECT_LT(stem.tip().at.y, 2.5);
   EXPECT_GT(std::hypot(stem.tip().at.x, stem.tip().at.z), 1);
+  // It follows the ceiling and is not thrown back from it.
+  EXPECT_GT(stem.tip().at.y, 1.8);
 }
 
 TEST(GrowthEnvironment, AStemWithoutAWayOutEndsInsteadOfBreakingThrough) {
@@ -227,6 +229,27 @@ TEST(GrowthEnvironment, AStemWithoutAWayOutEndsInsteadOfBreakingThrough) {
   EXPECT_LT(stem.length, 5);
   for (const auto& [from, to] : piecesOf(stem)) EXPECT_EQ(glm::clamp(to, walls.low.at, walls.high.at), to);
   EXPECT_NEAR(arcLength(stem), stem.length, 1e-12);
+}
+
+TEST(ObstacleFile, ReadsPointsAndFacesOfObjText) {
+  const auto mesh = obstacleFromObj("# a wall\nmtllib x.mtl\nv 0 0 0\r\nv 1 0 0 1.0\nv\t1 1e0 0\nvn 0 0 1\nv 0 1 0.5\nf 1/1/1 2//1 3 4\nf -4 -1 -2\n");
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh->points, (std::vector<PlantPoint>{{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{0, 1, 0.5}}}));
+  EXPECT_EQ(mesh->triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 2}}));
+}
+
+TEST(ObstacleFile, SaysWhichLineIsWrong) {
+  const auto refusal = [](std::string_view text) {
+    const auto mesh = obstacleFromObj(text);
+    return mesh ? std::string() : mesh.error().message;
+  };
+  EXPECT_NE(refusal("v 0 0 0\nv 1 x 0\n").find("line 2: 'x' is not a number"), std::string::npos);
+  EXPECT_NE(refusal("v 0 0\n").find("line 1: a point needs three"), std::string::npos);
+  EXPECT_NE(refusal("v 0 0 0\nf 1 1 2\n").find("line 2: there is no point number 2"), std::string::npos);
+  EXPECT_NE(refusal("v 0 0 0\nf 1 1 -2\n").find("line 2: there is no point number -2"), std::string::npos);
+  EXPECT_NE(refusal("v 0 0 0\nf 1 1\n").find("line 2: a face needs three"), std::string::npos);
+  EXPECT_NE(refusal("v 0 0 0\nf 1 1 1.5\n").find("line 2: a corner is the number"), std::string::npos);
+  EXPECT_NE(refusal("").find("no face"), std::string::npos);
 }
 
 TEST(ObstacleField, FindsTheNearestPointThatABruteForceSearchFinds) {
