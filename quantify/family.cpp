@@ -68,8 +68,12 @@ class FamilyMaker {
     return g;
   }
 
+  /// Stages of each plant. Where most plants are of one age and none is older, smaller ones have ended early.
   void setAges() {
-    for (const PlantSchedule& plant : schedule().plants) ages_.push_back(plant.now + 1);
+    double most = 0, oldest = 0;
+    for (const PlantSchedule& plant : schedule().plants) most = std::max(most, plant.now + 1);
+    for (const PlantSchedule& plant : schedule().plants) oldest += plant.now + 1.5 > most ? 1 : 0;
+    for (const PlantSchedule& plant : schedule().plants) ages_.push_back(2 * oldest >= static_cast<double>(plants_.size()) ? most : plant.now + 1);
   }
 
   void setGroups() {

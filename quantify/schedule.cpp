@@ -195,12 +195,16 @@ bool stillGrows(const OrderSchedule& order, const Case& c) {
   return !order.lasting || c.stages < *order.lasting;
 }
 
-/// Where half of three plants and more are of one age and none is older, clearly smaller ones are no younger: they have ended early.
-void shareAge(Schedule& schedule) {
+/// Where half of five sympodial plants and more are of one age and none is older, clearly smaller ones are no younger: their first axes have ended without a fork. First
+/// axes of monopodial plants go on; a smaller plant is a younger one.
+void shareAge(Schedule& schedule, std::span<const MeasuredPlant> plants) {
+  constexpr std::size_t kFewest = 5;
+  const auto sympodial = std::count_if(plants.begin(), plants.end(), [](const MeasuredPlant& p) { return p.structure->branching == Branching::Sympodial; });
+  if (plants.size() < kFewest || 2 * static_cast<std::size_t>(sympodial) < plants.size()) return;
   double oldest = 0;
   for (const PlantSchedule& plant : schedule.plants) oldest = std::max(oldest, plant.now);
   const auto full = std::count_if(schedule.plants.begin(), schedule.plants.end(), [oldest](const PlantSchedule& p) { return p.now == oldest; });
-  if (schedule.plants.size() < 3 || 2 * static_cast<std::size_t>(full) < schedule.plants.size()) return;
+  if (2 * static_cast<std::size_t>(full) < plants.size()) return;
   for (PlantSchedule& plant : schedule.plants)
     if (plant.now + 1.5 < oldest) plant.now = oldest;
 }
@@ -222,7 +226,7 @@ Schedule scheduleOf(std::span<const MeasuredPlant> plants) {
     schedule.plants.push_back(std::move(own));
     orders = std::max(orders, plant.structure->orders);
   }
-  shareAge(schedule);
+  shareAge(schedule, plants);
   for (int order = 0; order < orders; ++order) {
     const std::vector<Case> cases = casesOf(plants, schedule, order);
     schedule.orders.push_back(orderSchedule(order, cases));

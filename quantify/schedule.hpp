@@ -29,7 +29,7 @@ struct OrderSchedule {
 };
 
 struct PlantSchedule {
-  double now = 0;                 ///< stage of the newest segment; the first is 0. Plants of a set that is of one age, but for a few that are clearly smaller, are all of that age
+  double now = 0;                 ///< stage of the newest segment; the first is 0. Where half of five sympodial plants and more are of one age and none is older, smaller ones are as old: their first axes have ended
   std::vector<double> birth;      ///< stage of each segment
   std::vector<bool> grows;        ///< of each axis
 };

@@ -288,20 +288,52 @@ TEST(PredictiveGrammar, YoungLeavesGoOnGrowingToTheUsualSize) {
   EXPECT_EQ(full, 13u);
 }
 
-TEST(PredictiveGrammar, OldLeavesFall) {
+enum class Branches { None, OfTwoLengths };
+/// A stem of ten segments, with branches of seven and five if wanted; only the youngest four nodes of each bear a leaf.
+Skeleton withYoungLeavesOnly(Branches branches) {
   std::vector<glm::dvec3> points;
   for (int i = 0; i <= 10; ++i) points.push_back({0, 0.1 * i, 0});
   Skeleton plant = test::chainThrough(points);
-  for (int i = 7; i <= 10; ++i) {
+  const auto leaf = [&plant](int stem, glm::dvec3 at, int i) {
     const PlantDirection out = PlantDirection::along({std::cos(2.4 * i), 0.5, std::sin(2.4 * i)});
-    plant.leaves.push_back({StemId{1}, {{0, 0.1 * i, 0}}, out, perpendicularTo(out, PlantDirection::up()), 0.1, 0.05, "ovate"});
+    plant.leaves.push_back({StemId{stem}, {at}, out, perpendicularTo(out, PlantDirection::up()), 0.1, 0.05, "ovate"});
+  };
+  for (int i = 7; i <= 10; ++i) leaf(1, {0, 0.1 * i, 0}, i);
+  if (branches == Branches::None) return plant;
+  for (const int length : {7, 5}) {
+    const double base = 0.1 * (10 - length), out = length == 7 ? 0.06 : -0.06;
+    std::vector<glm::dvec3> side;
+    for (int k = 1; k <= length; ++k) side.push_back({out * k, base + 0.06 * k, 0});
+    test::addStem(plant, StemId{1}, NodeId{10 - length + 1}, side);
+    for (int k = length - 3; k <= length; ++k) leaf(plant.stems.back().id.value, side[static_cast<std::size_t>(k - 1)], k);
   }
+  return plant;
+}
+std::ptrdiff_t leavesAfter(int stages, const Skeleton& plant) {
   const Measurements m = valueOf(quantify::measure(plant));
-  const simeco::Growth growth = valueOf(simeco::prepareGrowth(valueOf(predictiveGrammar(m, {}, {.stages = 6}))));
+  const simeco::Growth growth = valueOf(simeco::prepareGrowth(valueOf(predictiveGrammar(m, {}, {.stages = stages}))));
   const simeco::Plant grown = valueOf(simeco::plantAt(growth, simeco::completeTime(growth)));
-  const auto leaves = std::count_if(grown.organs.begin(), grown.organs.end(), [](const simeco::Organ& o) { return o.kind == simeco::OrganKind::Leaf; });
-  EXPECT_GE(leaves, 3);
-  EXPECT_LE(leaves, 5);
+  return std::count_if(grown.organs.begin(), grown.organs.end(), [](const simeco::Organ& o) { return o.kind == simeco::OrganKind::Leaf; });
+}
+
+TEST(PredictiveGrammar, OldLeavesFall) {
+  // Branches of two lengths tell that old nodes are bare, not low ones: of the twelve measured leaves and what six stages add no axis keeps more than five.
+  const Measurements m = valueOf(quantify::measure(withYoungLeavesOnly(Branches::OfTwoLengths)));
+  const simeco::Grammar grammar = valueOf(predictiveGrammar(m, {}, {.stages = 6}));
+  const simeco::Growth growth = valueOf(simeco::prepareGrowth(grammar));
+  const simeco::Plant grown = valueOf(simeco::plantAt(growth, simeco::completeTime(growth)));
+  std::map<std::int32_t, int> leaves;  // by the stem organ that bears them
+  for (const simeco::Organ& o : grown.organs)
+    if (o.kind == simeco::OrganKind::Leaf && o.parent) ++leaves[o.parent->value];
+  const auto stems = std::count_if(grown.organs.begin(), grown.organs.end(), [](const simeco::Organ& o) { return o.kind == simeco::OrganKind::Stem; });
+  EXPECT_GE(stems, 22 + 18);
+  EXPECT_LE(leaves.size(), static_cast<std::size_t>(stems) - 22);  // the measured segments are bare by then
+  EXPECT_GE(leaves.size(), 9u);
+}
+
+TEST(PredictiveGrammar, LeavesStayWhereNothingTellsThatTheyFall) {
+  // On one stem the bare nodes may be those that never had a leaf: four stay, six come.
+  EXPECT_EQ(leavesAfter(6, withYoungLeavesOnly(Branches::None)), 10);
 }
 
 TEST(PredictiveGrammar, AxesThatEndAtTheSameRankEndThereAgain) {
