@@ -195,6 +195,30 @@ DraftStem stemOf(std::span<const SeenMask> masks, const Cubes& cubes, const Chos
   return stem;
 }
 
+/// Without the stems that bear none and are far less sure than the others: in a sparse plant a stem that explains little is none, in a
+/// dense one, where stems hide each other, even true ones explain little.
+std::vector<DraftStem> withoutUnsure(const std::vector<DraftStem>& stems) {
+  constexpr double kLeastShare = 0.3;  // of the usual sureness
+  std::vector<double> sure;
+  for (const DraftStem& stem : stems) sure.push_back(stem.sureness);
+  std::nth_element(sure.begin(), sure.begin() + static_cast<std::ptrdiff_t>(sure.size() / 2), sure.end());
+  const double least = kLeastShare * sure[sure.size() / 2];
+  std::vector<bool> bears(stems.size(), false), stays(stems.size(), true);
+  for (std::size_t i = stems.size(); i-- > 0;) {
+    stays[i] = !stems[i].parent || bears[i] || stems[i].sureness >= least;
+    if (stays[i] && stems[i].parent) bears[*stems[i].parent] = true;
+  }
+  std::vector<DraftStem> kept;
+  std::vector<std::size_t> number(stems.size(), 0);
+  for (std::size_t i = 0; i < stems.size(); ++i) {
+    if (!stays[i]) continue;
+    number[i] = kept.size();
+    kept.push_back(stems[i]);
+    if (kept.back().parent) kept.back().parent = number[*kept.back().parent];
+  }
+  return kept;
+}
+
 Result<std::vector<SeenMask>> seenMasks(std::span<const View> views, const std::map<std::string, Mask>& masks) {
   std::vector<SeenMask> seen;
   for (const View& view : views) {
@@ -241,7 +265,7 @@ Result<std::vector<DraftStem>> draftStems(std::span<const View> views, const std
     stems.push_back(stemOf(*seen, *cubes, way));
   }
   if (stems.empty()) return fail(ErrorCode::NoAnswer, "no stem was found in the masks from the collar on");
-  return stems;
+  return withoutUnsure(stems);
 }
 
 }  // namespace axil::skeleton3d

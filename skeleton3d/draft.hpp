@@ -48,7 +48,7 @@ struct PlantBox {
 
 struct DraftOptions {
   int cubesAcross = 350;        ///< cubes along the plant's reach; fewer where a leafy mask would leave more than half a million
-  double leastLength = 0.012;    ///< of a stem, as a share of the plant's size
+  double leastLength = 0.010;    ///< of a stem, as a share of the plant's size
   int maxStems = 400;
   Watch watch = {};
 };

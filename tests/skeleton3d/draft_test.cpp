@@ -1,5 +1,6 @@
 #include "skeleton3d/draft.hpp"
 
+#include "random_tree.hpp"
 #include "skeleton3d/camera.hpp"
 #include "skeleton3d/tree.hpp"
 #include "support/cases.hpp"
@@ -87,6 +88,105 @@ TEST(Draft, MostTipsOfARenderedPlantAreFoundAndFewThatAreNone) {
   std::printf("p01_default_simple: %d of %zu true tips, %zu stems drafted\n", found, plant.stems.size(), stems->size());
   EXPECT_GE(found, static_cast<int>(0.7 * static_cast<double>(plant.stems.size())));
   EXPECT_LE(static_cast<double>(stems->size()), static_cast<double>(found) / 0.8);
+}
+
+/// The way from the root to each branch's tip, in 50 equal steps.
+std::vector<std::vector<glm::dvec3>> waysToTips(const std::vector<test::TreeBranch>& branches) {
+  std::vector<std::vector<glm::dvec3>> whole, ways;
+  for (const test::TreeBranch& branch : branches) {
+    std::vector<glm::dvec3> way;
+    if (branch.parent >= 0) {
+      const auto& below = whole[static_cast<std::size_t>(branch.parent)];
+      std::size_t leaves = 0;
+      for (std::size_t i = 0; i < below.size(); ++i)
+        if (glm::length(below[i] - branch.points.front()) < glm::length(below[leaves] - branch.points.front())) leaves = i;
+      way.assign(below.begin(), below.begin() + static_cast<std::ptrdiff_t>(leaves) + 1);
+    }
+    for (std::size_t i = 0; i + 1 < branch.points.size(); ++i)
+      for (int k = 0; k < 40; ++k) way.push_back(glm::mix(branch.points[i], branch.points[i + 1], k / 40.0));
+    way.push_back(branch.points.back());
+    whole.push_back(way);
+    std::vector<glm::dvec3> even;
+    double length = 0, upTo = 0;
+    for (std::size_t i = 1; i < way.size(); ++i) length += glm::length(way[i] - way[i - 1]);
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      upTo += glm::length(way[i] - way[i - 1]);
+      while (even.size() < 50 && upTo >= length * static_cast<double>(even.size()) / 50) even.push_back(way[i]);
+    }
+    ways.push_back(std::move(even));
+  }
+  return ways;
+}
+
+double meanDistance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+  double sum = 0;
+  for (const auto& [from, to] : {std::pair{&a, &b}, std::pair{&b, &a}})
+    for (const glm::dvec3& p : *from) {
+      double least = 1e9;
+      for (const glm::dvec3& q : *to) least = std::min(least, glm::length(p - q));
+      sum += 0.5 * least / static_cast<double>(from->size());
+    }
+  return sum;
+}
+
+/// Branches of the truth that are found: way within 2 % of the height on average, tip within 8 % of it or a quarter of the branch.
+int matched(const std::vector<test::TreeBranch>& truth, const std::vector<test::TreeBranch>& drafted) {
+  const auto want = waysToTips(truth), got = waysToTips(drafted);
+  std::vector<bool> taken(got.size(), false);
+  int found = 0;
+  for (std::size_t i = 0; i < want.size(); ++i) {
+    std::size_t best = got.size();
+    double least = 0.02;
+    double length = 0;
+    for (std::size_t k = 1; k < truth[i].points.size(); ++k) length += glm::length(truth[i].points[k] - truth[i].points[k - 1]);
+    for (std::size_t j = 0; j < got.size(); ++j)
+      if (!taken[j] && glm::length(want[i].back() - got[j].back()) < std::max(0.08, 0.25 * length))
+        if (const double off = meanDistance(want[i], got[j]); off < least) least = off, best = j;
+    if (best < got.size()) taken[best] = true, ++found;
+  }
+  return found;
+}
+
+TEST(Draft, MostBranchesOfRandomTreesAreFoundAndFewThatAreNone) {
+  struct Case {
+    std::uint64_t seed;
+    test::RandomTreeOptions options;
+  };
+  for (const Case& one : {Case{21, {.laterals = 14, .wobble = 0.4}}, Case{22, {.laterals = 10, .sublaterals = 3, .spread = 0.45, .droop = 0.5}}}) {
+    const test::RandomTree tree = test::randomTree(one.seed, one.options);
+    const auto stems = draftStems(tree.views, tree.masks);
+    ASSERT_TRUE(stems) << stems.error().message;
+    std::vector<test::TreeBranch> drafted;
+    for (const DraftStem& stem : *stems) {
+      drafted.push_back({stem.parent ? static_cast<int>(*stem.parent) : -1, {}, stem.radius});
+      for (const PlantPoint& p : stem.points) drafted.back().points.push_back(p.at);
+    }
+    const int found = matched(tree.branches, drafted);
+    std::printf("seed %llu: %d of %zu branches found, %zu drafted\n", static_cast<unsigned long long>(one.seed), found, tree.branches.size(), drafted.size());
+    EXPECT_GE(found, 0.7 * static_cast<double>(tree.branches.size()));
+    EXPECT_GE(found, 0.8 * static_cast<double>(drafted.size()));
+  }
+}
+
+TEST(Draft, ItCanBeStopped) {
+  const Drawn plant = drawn();
+  CancelToken token;
+  token.cancel();
+  const auto stopped = draftStems(plant.views, plant.masks, {.watch = {.cancel = &token}});
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::Cancelled);
+}
+
+TEST(Draft, MasksOfALeafyPlantTakeFewerCubesNotMoreTime) {
+  Drawn plant = drawn();
+  for (auto& [name, mask] : plant.masks)
+    for (int y = 250; y < 560; ++y)
+      for (int x = 160; x < 340; ++x) mask.plant[static_cast<std::size_t>(y * 500 + x)] = 1;
+  std::vector<double> shares;
+  const auto stems = draftStems(plant.views, plant.masks, {.maxStems = 5, .watch = {.progress = [&](std::string_view, double share) { shares.push_back(share); }}});
+  EXPECT_TRUE(stems || stems.error().code == ErrorCode::NoAnswer || stems.error().code == ErrorCode::LimitReached);
+  EXPECT_GE(shares.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
 }
 
 }  // namespace
