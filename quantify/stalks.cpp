@@ -1,6 +1,7 @@
 #include "quantify/stalks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -38,6 +39,8 @@ bool goesStraightOn(const glm::dvec3& from, const glm::dvec3& to, const skeleton
   return glm::distance(leaf.position.at, to) <= kStraight * length && glm::distance(leaf.direction.unit(), (to - from) / length) <= kStraight;
 }
 
+constexpr double kLikeSisters = 0.2;
+
 }  // namespace
 
 Skeleton withoutStalks(Skeleton skeleton) {
@@ -47,6 +50,7 @@ Skeleton withoutStalks(Skeleton skeleton) {
   const auto bearers = bearersOf(skeleton);
   std::set<StemId> stalks;
   std::set<NodeId> tips;
+  std::map<NodeId, double> lengths;   // of the stalks at a node
   for (const Stem& stem : skeleton.stems) {
     const auto own = leaves.find(stem.id);
     if (stem.nodes.size() != 2 || !stem.parent || own == leaves.end() || own->second.size() != 1 || bearers.contains(stem.nodes.back())) continue;
@@ -54,10 +58,26 @@ Skeleton withoutStalks(Skeleton skeleton) {
     skeleton3d::Leaf& leaf = skeleton.leaves[own->second.front()];
     if (!goesStraightOn(at.at(stem.nodes.front()), at.at(stem.nodes.back()), leaf)) continue;
     stalks.insert(stem.id);
+    lengths[stem.nodes.front()] = glm::distance(at.at(stem.nodes.front()), at.at(stem.nodes.back()));
     tips.insert(stem.nodes.back());
     leaf.stem = *stem.parent;
     leaf.position = {at.at(stem.nodes.back())};
     leaf.direction = PlantDirection::along(at.at(stem.nodes.back()) - at.at(stem.nodes.front()));
+  }
+  // The thesis lets one child of every node go on without brackets, so where a stem ends in leaves it goes on as the stalk of one of them, like its sisters.
+  for (Stem& stem : skeleton.stems) {
+    if (stalks.contains(stem.id) || stem.nodes.size() < 3 || !leaves.contains(stem.id)) continue;
+    const NodeId tip = stem.nodes.back(), node = stem.nodes[stem.nodes.size() - 2];
+    const auto sister = lengths.find(node);
+    if (bearers.contains(tip) || sister == lengths.end() || !at.contains(tip) || std::abs(glm::distance(at.at(node), at.at(tip)) - sister->second) > kLikeSisters * sister->second) continue;
+    std::vector<std::size_t> here;
+    for (const std::size_t l : leaves.at(stem.id))
+      if (skeleton.leaves[l].stem == stem.id && glm::distance(skeleton.leaves[l].position.at, at.at(tip)) <= kStraight * sister->second) here.push_back(l);
+    if (here.size() != 1 || !goesStraightOn(at.at(node), at.at(tip), skeleton.leaves[here.front()])) continue;
+    skeleton.leaves[here.front()].position = {at.at(tip)};
+    skeleton.leaves[here.front()].direction = PlantDirection::along(at.at(tip) - at.at(node));
+    stem.nodes.pop_back();
+    tips.insert(tip);
   }
   std::erase_if(skeleton.stems, [&](const Stem& stem) { return stalks.contains(stem.id); });
   std::erase_if(skeleton.nodes, [&](const skeleton3d::Node& node) { return tips.contains(node.id); });
