@@ -373,7 +373,7 @@ class DesignWriter {
 
 Result<DescribedPlant> describedPlant(const Traits& traits, const DescribedOptions& options) {
   if (traits.empty()) return fail(ErrorCode::NoAnswer, "the description names no trait of a plant; say how its leaves, stems or flowers look");
-  const Presets presets = keywords::withGroups(traits, keywords::presetsOf(traits));
+  const Presets presets = keywords::presetsOf(traits);
   const Design design = Designer(traits, presets).designed();
   DesignWriter writer(design);
   auto grammar = grammarOf(writer.written(options.name));

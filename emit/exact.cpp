@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <map>
 #include <set>
 
 namespace axil::emit {
@@ -113,8 +114,21 @@ class ExactText {
   [[nodiscard]] std::string plus(double step, const std::string& name, const std::string& index) const {
     return has(name) ? "+" + number(step) + "*" + name + "[" + index + "]" : "";
   }
-  [[nodiscard]] std::string usual(const std::string& name) const { return has(name) ? name + "[order]" : "0"; }
-  [[nodiscard]] std::string plusUsual(const std::string& name, const std::string& factor = "") const { return has(name) ? "+" + name + "[order]" + factor : ""; }
+  [[nodiscard]] std::string usual(const std::string& name) const {
+    const auto alike = alike_.find(name);
+    return alike != alike_.end() ? alike->second : has(name) ? name + "[order]" : "0";
+  }
+  [[nodiscard]] std::string plusUsual(const std::string& name, const std::string& factor = "") const { return usual(name) == "0" ? "" : "+" + usual(name) + factor; }
+
+  /// What is usual by order: a table; a number where all orders that have any are alike.
+  template <class Get>
+  void usualTable(const std::string& name, Get get, std::size_t OrderUsual::*samples) {
+    std::set<std::string> values;
+    for (const OrderUsual& u : plan_.usual)
+      if (u.*samples > 0) values.insert(number(get(u)));
+    if (values.size() > 1) table(name, byOrder(get));
+    else if (!values.empty()) alike_[name] = *values.begin();
+  }
 
   template <class Get>
   std::vector<double> byOrder(Get get) const {
@@ -127,18 +141,18 @@ class ExactText {
     const auto shrink = byOrder([](const OrderUsual& u) { return u.shrink; });
     if (std::any_of(shrink.begin(), shrink.end(), [](double s) { return s != 1; })) table("shrink", shrink);
     if (!plan_.radiusMeasured) table("thickness", plan_.radii);
-    tableIfNeeded("bend", byOrder([](const OrderUsual& u) { return u.bend; }));
+    usualTable("bend", [](const OrderUsual& u) { return u.bend; }, &OrderUsual::segments);
     if (hasBranches()) {
-      table("insertion", byOrder([](const OrderUsual& u) { return u.insertion; }));
-      tableIfNeeded("divergence", byOrder([](const OrderUsual& u) { return u.divergence; }));
-      tableIfNeeded("azimuth", byOrder([](const OrderUsual& u) { return u.azimuth; }));
-      tableIfNeeded("apart", byOrder([](const OrderUsual& u) { return u.apart; }));
+      usualTable("insertion", [](const OrderUsual& u) { return u.insertion; }, &OrderUsual::branches);
+      usualTable("divergence", [](const OrderUsual& u) { return u.divergence; }, &OrderUsual::branches);
+      usualTable("azimuth", [](const OrderUsual& u) { return u.azimuth; }, &OrderUsual::branches);
+      usualTable("apart", [](const OrderUsual& u) { return u.apart; }, &OrderUsual::branches);
     }
     if (!hasLeaves()) return;
-    table("leafAngle", byOrder([](const OrderUsual& u) { return u.leafAngle; }));
-    tableIfNeeded("leafDivergence", byOrder([](const OrderUsual& u) { return u.leafDivergence; }));
-    tableIfNeeded("leafAzimuth", byOrder([](const OrderUsual& u) { return u.leafAzimuth; }));
-    tableIfNeeded("leafApart", byOrder([](const OrderUsual& u) { return u.leafApart; }));
+    usualTable("leafAngle", [](const OrderUsual& u) { return u.leafAngle; }, &OrderUsual::leaves);
+    usualTable("leafDivergence", [](const OrderUsual& u) { return u.leafDivergence; }, &OrderUsual::leaves);
+    usualTable("leafAzimuth", [](const OrderUsual& u) { return u.leafAzimuth; }, &OrderUsual::leaves);
+    usualTable("leafApart", [](const OrderUsual& u) { return u.leafApart; }, &OrderUsual::leaves);
   }
   template <class T>
   static std::vector<T> withEnd(std::vector<T> values) {
@@ -165,8 +179,8 @@ class ExactText {
   // ---- rules ----
 
   void axiom() {
-    line("// [order]: medians, radians. [row]: segments, axis after axis; longer, bent, turned: by how many steps one differs. start: an axis' first row;");
-    line("// side" + std::string(hasLeaves() ? ", leaves: the first axis, leaf at its tip." : ": the first axis at its tip."));
+    line("// By [order] what is usual (radians); by [row], axis after axis, how many steps one is longer, bent, turned. start: an axis' first row;");
+    line("// side" + std::string(hasLeaves() ? ", leaves: first axis, leaf there." : ": first axis there."));
     std::string text = "w = ";
     if (layout_.collarLeaves > 0) text += "L(0, 0, 0, " + std::to_string(layout_.collarLeaves) + ", " + number(plan_.usual.front().leafAzimuth) + ") ";
     if (layout_.collarAxes > 0) text += "A(0, 0, 1, " + std::to_string(1 + layout_.collarAxes) + ", 0) ";
@@ -198,7 +212,7 @@ class ExactText {
 
   void budRule() {
     line("// Axillary buds: axes of the next order. From " + samples(&OrderUsual::branches) + " insertions.");
-    line("A(0, order, axis, end, around) : axis < end && order+1 < Depth -> [rotr(max(0, insertion[order]" + plus(plan_.angleStep, "bent", "start[axis]") + "))rotu(around" +
+    line("A(0, order, axis, end, around) : axis < end && order+1 < Depth -> [rotr(max(0, " + usual("insertion") + plus(plan_.angleStep, "bent", "start[axis]") + "))rotu(around" +
          plus(plan_.angleStep, "turned", "start[axis]") + ")A(order+1, axis, start[axis], 0)] A(0, order, axis+1, end, around" + plusUsual("apart") + ") ;");
   }
 
@@ -208,7 +222,7 @@ class ExactText {
     const std::string stalk = has("stalked") ? "max(0.00000001, " + number(plan_.petiole) + plus(plan_.lengthStep, "stalked", "leaf") + ")" : number(std::max(1e-8, plan_.petiole));
     for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
       const std::string only = plan_.shapes.size() > 1 ? " && shape[leaf] == " + std::to_string(s) : "";
-      std::string leaf = "[rotr(max(0, leafAngle[order]" + plus(plan_.leafStep, "leafBent", "leaf") + "))rotu(around" + plus(plan_.leafStep, "leafTurned", "leaf") + ")";
+      std::string leaf = "[rotr(max(0, " + usual("leafAngle") + plus(plan_.leafStep, "leafBent", "leaf") + "))rotu(around" + plus(plan_.leafStep, "leafTurned", "leaf") + ")";
       if (hasStalks()) leaf += "S(2, " + stalk + ")";
       if (has("leafRoll")) leaf += "rotr(0)rotu(" + plus(plan_.leafStep, "leafRoll", "leaf").substr(1) + ")";
       leaf += "L(" + std::to_string(s + 1) + ", " + blade + ")]";
@@ -223,6 +237,7 @@ class ExactText {
   const EmitOptions& options_;
   std::string text_;
   std::set<std::string> tables_;
+  std::map<std::string, std::string> alike_;   ///< usual numbers that need no table
 };
 
 /// Bits of the text, and of what its errors leave unsaid.
