@@ -6,7 +6,8 @@ namespace axil::skeleton3d::detail {
 namespace {
 
 BundleLine lineOf(const RidgeReading& ridge) {
-  return {ridge.at.px, {-std::sin(ridge.along.radians()), std::cos(ridge.along.radians())}, ridge.sigmaAcross_px};
+  const auto tip = ridge.tip ? std::optional(ridge.tip->px) : std::nullopt;
+  return {ridge.at.px, {-std::sin(ridge.along.radians()), std::cos(ridge.along.radians())}, ridge.sigmaAcross_px, tip, ridge.sigmaTip_px};
 }
 
 }  // namespace

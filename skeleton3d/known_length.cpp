@@ -123,13 +123,18 @@ std::optional<double> alongOf(const Photo& photo, const End& end, const Across& 
 
 double reachOf(double length_px) { return std::clamp(0.06 * length_px, 4.0, 12.0); }
 
-std::optional<PhotoPoint> endNear(const Photo& photo, glm::dvec2 click, glm::dvec2 other) {
+End endAt(glm::dvec2 click, glm::dvec2 other) {
   End end;
   end.click = click;
   end.length = glm::length(click - other);
   end.out = (click - other) / end.length;
   end.side = {-end.out.y, end.out.x};
   end.reach = reachOf(end.length);
+  return end;
+}
+
+std::optional<PhotoPoint> endNear(const Photo& photo, glm::dvec2 click, glm::dvec2 other) {
+  const End end = endAt(click, other);
   const auto across = acrossOf(photo, end);
   const auto along = across ? alongOf(photo, end, *across) : std::nullopt;
   if (!along) return std::nullopt;
@@ -138,8 +143,19 @@ std::optional<PhotoPoint> endNear(const Photo& photo, glm::dvec2 click, glm::dve
 
 bool within(const Photo& photo, glm::dvec2 px) { return px.x >= 0 && px.y >= 0 && px.x <= photo.width && px.y <= photo.height; }
 
-SnappedLength measuredByBands(const KnownLength& clicked, const detail::BandedEnds& bands, std::optional<double> focal_px) {
+/// `end`, known along the rod, moved to between the rod's two edges.
+glm::dvec2 betweenEdges(const Photo& photo, glm::dvec2 end, glm::dvec2 other) {
+  constexpr double kNear_px = 4;
+  const End place = endAt(end, other);
+  const auto across = acrossOf(photo, place);
+  return across && std::abs(across->middle) < kNear_px ? place.at(0, across->middle) : end;
+}
+
+SnappedLength measuredByBands(const Photo& photo, const KnownLength& clicked, detail::BandedEnds bands, std::optional<double> focal_px) {
   SnappedLength snapped{clicked, true, true, {bands.sigma_px, bands.sigma_px}};
+  const glm::dvec2 from = betweenEdges(photo, bands.from, bands.to), to = betweenEdges(photo, bands.to, bands.from);
+  bands.from = from;
+  bands.to = to;
   constexpr double kFront = 0.9;  // of the radius, for lines over the middle of the rod
   const double nearer = focal_px ? kFront * bands.half_px / *focal_px : 0.0;
   const glm::dvec2 shrink = 0.5 * nearer * (bands.to - bands.from);
@@ -154,7 +170,7 @@ SnappedLength snapKnownLength(const Photo& photo, const KnownLength& clicked, st
   SnappedLength snapped{clicked};
   const double length_px = glm::length(clicked.to.px - clicked.from.px);
   if (photo.width < 2 || photo.height < 2 || !within(photo, clicked.from.px) || !within(photo, clicked.to.px) || length_px < kShortest_px) return snapped;
-  if (const auto bands = detail::bandedEnds(photo, clicked.from.px, clicked.to.px, reachOf(length_px))) return measuredByBands(clicked, *bands, focal_px);
+  if (const auto bands = detail::bandedEnds(photo, clicked.from.px, clicked.to.px, reachOf(length_px))) return measuredByBands(photo, clicked, *bands, focal_px);
   const auto from = endNear(photo, clicked.from.px, clicked.to.px), to = endNear(photo, clicked.to.px, clicked.from.px);
   snapped.fromMoved = from.has_value();
   snapped.toMoved = to.has_value();

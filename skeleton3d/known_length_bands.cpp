@@ -141,7 +141,8 @@ bool endsNearClicks(const Fit& fit, const Line& line, double reach_px) {
 /// `bands` bands whose edges most crossings are; a twig before the rod may hide some of them and add its own.
 std::optional<Fit> fitted(const std::vector<Crossing>& crossings, const Line& line, int bands, double reach_px) {
   const double expected = line.length / bands;
-  if (expected < kShortestBand_px) return std::nullopt;
+  const double mostCrossings = 1.5 * (bands - 1) + 4;  // twigs before a rod add some; texture adds many
+  if (expected < kShortestBand_px || static_cast<double>(crossings.size()) > mostCrossings) return std::nullopt;
   const auto fewest = static_cast<std::size_t>(std::max(3.0, std::ceil(kSeenEdges * (bands - 1))));
   std::optional<Fit> best;
   for (std::size_t i = 0; i < crossings.size(); ++i)

@@ -31,12 +31,15 @@ struct Constraint {
 glm::dvec2 directionOf(Angle along) { return {std::cos(along.radians()), std::sin(along.radians())}; }
 
 /// The constraints of one click: its own in both directions, and across its stem the ridge's where it is believed.
-void addConstraints(const Sight& sight, bool believed, double click_px, double cameras_px, std::vector<Constraint>& constraints) {
+constexpr double kTipsMissed = 8;    // what it costs not to believe it, in squared sigmas
+
+void addConstraints(const Sight& sight, bool believed, bool tips, double click_px, double cameras_px, std::vector<Constraint>& constraints) {
   constraints.push_back({sight.view, sight.click, {1 / click_px, 0}});
   constraints.push_back({sight.view, sight.click, {0, 1 / click_px}});
   if (!believed) return;
   const glm::dvec2 along = directionOf(sight.ridge->along);
   constraints.push_back({sight.view, sight.ridge->at.px, glm::dvec2{-along.y, along.x} / std::hypot(sight.ridge->sigmaAcross_px, cameras_px)});
+  if (tips && sight.ridge->tip) constraints.push_back({sight.view, sight.ridge->tip->px, along / std::hypot(sight.ridge->sigmaTip_px, cameras_px)});
 }
 
 /// Pixels a unit of space, two rows; by differences, a thousandth of a pixel wide.
@@ -102,6 +105,7 @@ double costOfDisbelief(const RidgeReading& ridge) {
 struct Believed {
   Placed placed;
   unsigned which = 0;
+  bool tips = false;  ///< whether the ends that photos show were believed
   double cost = 0;
 };
 
@@ -111,20 +115,22 @@ Believed mostLikely(const std::vector<Sight>& sights, PlantPoint start, double c
   for (std::size_t i = 0; i < sights.size(); ++i)
     if (sights[i].ridge != nullptr && withRidge.size() < 6) withRidge.push_back(i);
   Believed best;
+  const bool anyTip = std::any_of(sights.begin(), sights.end(), [](const Sight& sight) { return sight.ridge != nullptr && sight.ridge->tip; });
   const unsigned all = (1U << withRidge.size()) - 1;
-  for (unsigned choice = 0; choice <= all; ++choice) {
+  for (unsigned choice = 0; choice <= (anyTip ? 2 * all + 1 : all); ++choice) {
+    const bool tips = choice <= all && anyTip;
     std::vector<Constraint> constraints;
     std::vector<bool> believed(sights.size(), false);
-    double cost = 0;
+    double cost = anyTip && !tips ? kTipsMissed : 0;
     for (std::size_t k = 0; k < withRidge.size(); ++k) {
       believed[withRidge[k]] = (choice >> k & 1U) != 0;
       if (!believed[withRidge[k]]) cost += costOfDisbelief(*sights[withRidge[k]].ridge);
     }
-    for (std::size_t i = 0; i < sights.size(); ++i) addConstraints(sights[i], believed[i], click_px, cameras_px, constraints);
+    for (std::size_t i = 0; i < sights.size(); ++i) addConstraints(sights[i], believed[i], tips, click_px, cameras_px, constraints);
     const Placed here = placed(constraints, start);
     cost += here.squares;
     if (choice > 0 && !(cost < best.cost)) continue;
-    best = {here, 0, cost};
+    best = {here, 0, tips, cost};
     for (std::size_t i = 0; i < sights.size(); ++i)
       if (believed[i]) best.which |= 1U << i;
   }
@@ -204,7 +210,10 @@ RidgeReadings readAllRidges(const Photos& photos, std::span<const ClickedNode> n
 RidgeReadings believedReadings(const RidgeReadings& readings, std::span<const SnappedNode> placed) {
   RidgeReadings believed;
   for (const SnappedNode& node : placed)
-    for (const std::string& view : node.snappedIn) believed[view].emplace(node.id, readings.at(view).at(node.id));
+    for (const std::string& view : node.snappedIn) {
+      RidgeReading& reading = believed[view].emplace(node.id, readings.at(view).at(node.id)).first->second;
+      if (!node.tipSeen) reading.tip.reset();
+    }
   return believed;
 }
 
@@ -240,6 +249,7 @@ Result<std::vector<SnappedNode>> placeSnapped(std::span<const View> views, std::
     SnappedNode node{nodes[i].id, best.placed.at, glm::inverse(best.placed.normal), {}};
     for (std::size_t k = 0; k < sights.size(); ++k)
       if ((best.which >> k & 1U) != 0) node.snappedIn.push_back(sights[k].view->name);
+    node.tipSeen = best.tips;
     addRadius(node, sights, best.which);
     result.push_back(std::move(node));
   }

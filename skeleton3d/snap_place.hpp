@@ -27,6 +27,7 @@ struct SnappedNode {
   std::vector<std::string> snappedIn;   ///< views whose ridge was believed
   std::optional<double> radius = std::nullopt;
   double sigmaRadius = 0;
+  bool tipSeen = false;                 ///< the ends of its stem that photos show were believed
 
   friend bool operator==(const SnappedNode&, const SnappedNode&) = default;
 };

@@ -1,10 +1,13 @@
 #include "skeleton3d/snap.hpp"
+#include "skeleton3d/snap_tip.hpp"
 #include "skeleton3d/stem_colour.hpp"
 #include "skeleton3d/stem_path.hpp"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <vector>
 
 namespace axil::skeleton3d {
@@ -17,6 +20,7 @@ struct SeenStem {
   std::vector<NodeId> nodes;
   std::vector<glm::dvec2> clicks;
   std::vector<bool> own;  ///< a stem's first node belongs to its parent, so its line is not this stem's to find
+  bool endsIn = false;    ///< its last node is seen, and nothing goes on from there
   detail::StemLine line;
   detail::Expected expected;
 };
@@ -49,6 +53,9 @@ std::vector<SeenStem> seenStems(const std::string& view, std::span<const Clicked
   std::map<NodeId, int> owners;
   for (const ClickedStem& stem : stems)
     for (std::size_t i = 1; i < stem.nodes.size(); ++i) ++owners[stem.nodes[i]];
+  std::set<NodeId> begins;
+  for (const ClickedStem& stem : stems)
+    if (!stem.nodes.empty()) begins.insert(stem.nodes.front());
   std::vector<SeenStem> seen;
   for (const ClickedStem& stem : stems) {
     SeenStem s;
@@ -62,12 +69,21 @@ std::vector<SeenStem> seenStems(const std::string& view, std::span<const Clicked
       const auto better = expected.find(stem.nodes[i]);
       course.push_back(better == expected.end() ? found->second : better->second.at);
     }
+    s.endsIn = !s.nodes.empty() && s.nodes.back() == stem.nodes.back() && !begins.contains(stem.nodes.back()) && owners[stem.nodes.back()] == 1;
     s.line = detail::stemLine(course, expected.empty() ? click_px : 0.4 * click_px, kStep_px);
     if (s.line.at.empty()) continue;
     s.expected = expectedAlong(s, expected);
     seen.push_back(std::move(s));
   }
   return seen;
+}
+
+/// The end of the stem near its last click.
+void addTip(const Photo& photo, const SeenStem& stem, const SnapOptions& options, RidgeReading& reading) {
+  const glm::dvec2 along{std::cos(reading.along.radians()), std::sin(reading.along.radians())};
+  const glm::dvec2 course = stem.clicks.back() - stem.clicks[stem.clicks.size() - 2], out = glm::dot(course, along) < 0 ? -along : along;
+  const double reach_px = std::min(3 * options.click_px, 0.5 * glm::length(course));
+  if (const auto beyond = detail::tipBeyond(photo, reading, out, reach_px)) reading.tip = PhotoPoint{reading.at.px + *beyond * out}, reading.sigmaTip_px = std::hypot(1, 0.2 * reading.width_px);
 }
 
 }  // namespace
@@ -86,7 +102,9 @@ std::map<NodeId, RidgeReading> readRidges(const Photo& photo, const std::string&
     for (std::size_t i = 0; i < seen[s].nodes.size(); ++i) {
       if (!seen[s].own[i] || readings.contains(seen[s].nodes[i])) continue;
       const auto reading = detail::readingAt(seen[s].line, edges[s], seen[s].line.placeOf[i], seen[s].clicks[i], path);
-      if (reading) readings[seen[s].nodes[i]] = *reading;
+      if (!reading) continue;
+      readings[seen[s].nodes[i]] = *reading;
+      if (seen[s].endsIn && i + 1 == seen[s].nodes.size()) addTip(photo, seen[s], options, readings[seen[s].nodes[i]]);
     }
   }
   return readings;
