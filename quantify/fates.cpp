@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kMostFirstRanks = 12;
 constexpr int kMostPeriod = 8;
+constexpr double kNodesANumber = 4;  // fewer nodes fit any table of ranks
 constexpr double kCertain = 8;   // nodes that agree leave no doubt
 
 using Counts = std::vector<std::vector<double>>;  // [row][fate]
@@ -82,7 +83,8 @@ class Fitter {
   [[nodiscard]] double criterion(double logLikelihood, double numbers) const { return -2 * logLikelihood + numbers * std::log(static_cast<double>(nodes_.size())); }
 
   void take(FateTable::Shape shape, const Counts& counts, double numbers) {
-    if (std::any_of(counts.begin(), counts.end(), [](const auto& row) { return sumOf(row) == 0; })) return;
+    const bool few = counts.size() > 1 && static_cast<double>(nodes_.size()) < kNodesANumber * numbers;
+    if (few || std::any_of(counts.begin(), counts.end(), [](const auto& row) { return sumOf(row) == 0; })) return;
     const double own = criterion(logLikelihood(counts), numbers);
     if (own >= least_) return;
     least_ = own;
