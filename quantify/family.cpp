@@ -476,8 +476,9 @@ class FamilyMaker {
       }
     });
     if (lengths.empty()) return;
-    o.leafShare = o.outlook.leafLasts && o.extent == Extent::Stages ? o.outlook.leafShare : with / static_cast<double>(o.segments);
-    if (o.extent == Extent::Own) o.outlook.leafLasts.reset();
+    // Grown plants are of the measured ones' ages: whether old nodes lost their leaves or low ones never had any, they are bare alike.
+    o.outlook.leafLasts = o.extent == Extent::Stages ? o.outlook.leafSpan : std::nullopt;
+    o.leafShare = o.outlook.leafLasts ? o.outlook.leafShare : with / static_cast<double>(o.segments);
     o.leafLength = distributionOf(lengths);
   }
 

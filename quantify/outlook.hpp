@@ -66,7 +66,8 @@ struct OrderOutlook {
   double leafLength = 0, leafWidth = 0, petiole = 0;
   double leafDeviation = 0;         ///< of the logarithm of a grown leaf's length
   double leafStages = 1;            ///< stages until it is grown
-  std::optional<double> leafLasts;  ///< stages after which it has fallen
+  std::optional<double> leafSpan;   ///< nodes from the tip on which leaves stand, where older ones are bare, for whatever reason
+  std::optional<double> leafLasts;  ///< stages after which a leaf has fallen: the span, where stems of several lengths tell that age is the reason
   double branchBesideLeaf = 0;      ///< azimuth of a branch against the leaf of its node
   std::size_t segments = 0;         ///< measured
 

@@ -80,7 +80,7 @@ void setLeafTimes(OrderOutlook& o, const std::map<int, std::vector<double>>& cou
     if (const auto found = counts.find(last); found != counts.end()) bare += found->second.size();
     --last;
   }
-  if (bare >= 3 && last >= 0 && last < oldest) o.leafLasts = last + 1;
+  if (bare >= 3 && last >= 0 && last < oldest) o.leafSpan = last + 1;
 }
 
 void setLeafSizes(OrderOutlook& o, const std::map<int, std::vector<double>>& sizes) {
@@ -128,7 +128,7 @@ void setLeaves(OrderOutlook& o, std::span<const MeasuredPlant> plants, const Lay
   if (perNode.empty()) return;
   o.perNode = std::max_element(perNode.begin(), perNode.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
   setLeafTimes(o, countsByAge);
-  if (o.leafLasts && !leavesFallWithAge(plants, statistics)) o.leafLasts.reset();
+  if (o.leafSpan && leavesFallWithAge(plants, statistics)) o.leafLasts = o.leafSpan;
   setLeafSizes(o, sizesByAge);
   o.petiole = medianOf(std::move(petioles));
   const Estimate& angle = statistics.of(Quantity::LeafAngle).nearest(o.order);
