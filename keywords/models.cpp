@@ -127,91 +127,6 @@ std::optional<double> tubeOf(const FlowerPreset& flower) {
   return std::clamp(tube / (tube + 0.5 * flower.diameter_m->middle()), 0.05, 0.9);
 }
 
-using Organs = std::vector<std::string_view>;
-
-const Trait* traitOf(const Traits& traits, const Organs& organs, std::string_view property) {
-  for (const Trait& trait : traits)
-    if (trait.property == property && isHeld(trait) && std::find(organs.begin(), organs.end(), trait.organ) != organs.end()) return &trait;
-  return nullptr;
-}
-
-double metresIn(const std::string& unit) {
-  const Concept* entry = entryOf("unit", unit);
-  return entry == nullptr ? 0 : parseNumber(entry->columns.at("metres")).value_or(0);
-}
-
-void fill(std::string& member, const Traits& traits, const Organs& organs, std::string_view property) {
-  const Trait* trait = member.empty() ? traitOf(traits, organs, property) : nullptr;
-  if (trait != nullptr) member = trait->value;
-}
-
-PresetRange rangeOf(const Trait& trait, double factor) {
-  const double high = *trait.high * factor, low = trait.low.value_or(*trait.high) * factor;
-  return {trait.minimum ? *trait.minimum * factor : low, low, high, trait.maximum ? *trait.maximum * factor : high};
-}
-
-void fillLength(std::optional<PresetRange>& member, const Traits& traits, const Organs& organs, std::string_view property) {
-  for (const Trait& trait : traits) {
-    if (member || trait.property != property || !isHeld(trait) || !trait.high || std::find(organs.begin(), organs.end(), trait.organ) == organs.end()) continue;
-    if (const double metres = metresIn(trait.unit); metres > 0) member = rangeOf(trait, metres);
-  }
-}
-
-void fillCount(std::optional<PresetRange>& member, const Traits& traits, const Organs& organs, std::string_view property) {
-  const Trait* trait = member ? nullptr : traitOf(traits, organs, property);
-  if (trait == nullptr) return;
-  if (trait->high) member = rangeOf(*trait, 1);
-  else if (const auto number = parseNumber(trait->value)) member = PresetRange{*number, *number, *number, *number};
-}
-
-/// Pairs count twice, and an odd-pinnate leaf has one more.
-void fillLeaflets(LeafPreset& leaf, const Traits& traits) {
-  const Trait* count = leaf.leaflets ? nullptr : traitOf(traits, {"leaflet"}, "count");
-  if (count == nullptr || !count->high) return;
-  const bool pairs = count->unit.starts_with("pair");
-  leaf.leaflets = rangeOf(*count, pairs ? 2 : 1);
-  if (pairs && leaf.type == "odd-pinnate") leaf.leaflets = PresetRange{leaf.leaflets->minimum + 1, leaf.leaflets->low + 1, leaf.leaflets->high + 1, leaf.leaflets->maximum + 1};
-}
-
-void fillLeaf(LeafPreset& leaf, const Traits& traits) {
-  fill(leaf.type, traits, {"leaf"}, "type");
-  const Organs blade = organs::leafTypeNamed(leaf.type) ? Organs{"leaflet", "leaf"} : Organs{"leaf"};
-  fill(leaf.apex, traits, blade, "apex");
-  fill(leaf.base, traits, blade, "base");
-  fill(leaf.margin, traits, blade, "margin");
-  fill(leaf.venation, traits, {"leaf", "leaflet", "vein"}, "venation");
-  fill(leaf.attachment, traits, {"leaf"}, "attachment");
-  fill(leaf.leafletShape, traits, {"leaflet"}, "shape");
-  fillLength(leaf.length_m, traits, {"leaf"}, "length");
-  fillLength(leaf.width_m, traits, {"leaf"}, "width");
-  fillLength(leaf.petiole_m, traits, {"petiole"}, "length");
-  fillLength(leaf.leafletLength_m, traits, {"leaflet"}, "length");
-  fillLength(leaf.leafletWidth_m, traits, {"leaflet"}, "width");
-  fillLeaflets(leaf, traits);
-}
-
-void fillPlant(PlantPreset& plant, const Traits& traits) {
-  fill(plant.lifeForm, traits, {"plant"}, "life form");
-  fill(plant.habit, traits, {"plant", "stem"}, "habit");
-  fillLength(plant.height_m, traits, {"plant", "stem"}, "height");
-}
-
-void fillFlower(FlowerPreset& flower, const Traits& traits) {
-  for (const Trait& trait : traits)
-    if (flower.form.empty() && isOneOf(trait.organ, {"flower", "corolla"}) && isOneOf(trait.property, {"form", "flower plan"}) && organs::flowerShapeNamed(trait.value)) flower.form = trait.value;
-  fill(flower.petalShape, traits, {"petal", "corolla"}, "shape");
-  fill(flower.inflorescence, traits, {"inflorescence"}, "type");
-  fill(flower.position, traits, {"flower", "inflorescence"}, "position");
-  fillCount(flower.merosity, traits, {"flower", "corolla"}, "merosity");
-  fillCount(flower.petals, traits, {"petal"}, "count");
-  fillCount(flower.flowersPerInflorescence, traits, {"inflorescence", "flower"}, "count");
-  fillLength(flower.petalLength_m, traits, {"petal"}, "length");
-  fillLength(flower.tubeLength_m, traits, {"corolla"}, "length");
-  fillLength(flower.diameter_m, traits, {"corolla"}, "diameter");
-  fillLength(flower.diameter_m, traits, {"flower"}, "diameter");
-  fillLength(flower.inflorescenceLength_m, traits, {"inflorescence"}, "length");
-}
-
 template <class Keep>
 std::vector<glm::dvec3> coloursWhere(const Traits& traits, Keep keep) {
   std::vector<glm::dvec3> colours;
@@ -222,21 +137,6 @@ std::vector<glm::dvec3> coloursWhere(const Traits& traits, Keep keep) {
 }
 
 }  // namespace
-
-Presets withGroups(const Traits& traits, Presets presets) {
-  const auto evident = [&](const char* preset, bool isSet, std::initializer_list<std::string_view> about, const char* property) {
-    const Trait* trait = isSet ? nullptr : traitOf(traits, Organs(about), property);
-    if (trait != nullptr) presets.evidence.emplace(preset, trait->text);
-  };
-  evident("plant.lifeForm", !presets.plant.lifeForm.empty(), {"plant"}, "life form");
-  evident("plant.height_m", presets.plant.height_m.has_value(), {"plant", "stem"}, "height");
-  evident("flower.inflorescence", !presets.flower.inflorescence.empty(), {"inflorescence"}, "type");
-  fillLeaf(presets.leaf, traits);
-  fillPlant(presets.plant, traits);
-  fillFlower(presets.flower, traits);
-  fill(presets.fruit.type, traits, {"fruit"}, "type");
-  return presets;
-}
 
 std::optional<glm::dvec3> colourNamed(std::string_view name) {
   const Concept* entry = entryOf("colour", name);

@@ -15,9 +15,6 @@
 
 namespace axil::keywords {
 
-/// `presets` with its groups (leaf, plant, flower, fruit) filled from `traits` where they are empty.
-[[nodiscard]] Presets withGroups(const Traits& traits, Presets presets);
-
 /// Each is empty where the text says nothing about how the organ is made. `traits` are those that `presets` come from; spots are
 /// read from them.
 [[nodiscard]] std::string leafModelOf(const Traits& traits, const Presets& presets);

@@ -6,18 +6,22 @@
 #include "keywords/words.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 
 namespace axil::keywords {
 
 namespace {
 
-/// Which statements a preset is taken from. Empty parts and values: any.
+/// Which statements a preset is taken from: of the whole organ or of that piece of it.
 struct Wanted {
   std::string_view organ;
   std::string_view property;
   std::string_view part = "";
   std::string_view unit = "";
 };
+
+constexpr std::string_view anyPart = "*";
+using Choices = std::initializer_list<Wanted>;  // the first that the text answers
 
 bool isDoubtful(const Trait& trait) { return isOneOf(trait.qualifier, {"rarely", "sometimes"}); }
 
@@ -26,7 +30,7 @@ const Trait* firstOf(const Traits& traits, const Wanted& wanted) {
   const Trait* special = nullptr;
   for (const Trait& trait : traits) {
     const std::string_view part = trait.part == "blade" || trait.part == "surface" ? std::string_view{} : std::string_view(trait.part);
-    const bool same = trait.organ == wanted.organ && trait.property == wanted.property && part == wanted.part && (wanted.unit.empty() || trait.unit == wanted.unit);
+    const bool same = trait.organ == wanted.organ && trait.property == wanted.property && (part == wanted.part || wanted.part == anyPart) && (wanted.unit.empty() || trait.unit == wanted.unit);
     if (!same || isDoubtful(trait)) continue;
     if (trait.which.empty()) return &trait;
     if (special == nullptr) special = &trait;
@@ -50,27 +54,32 @@ class Setter {
  public:
   Setter(Presets& presets, const Traits& traits) : presets_(presets), traits_(traits) {}
 
-  void word(std::string& member, const char* name, const Wanted& wanted) {
-    const Trait* trait = firstOf(traits_, wanted);
-    if (trait == nullptr || trait->value.empty()) return;
-    member = trait->value;
-    remember(presets_, name, *trait);
+  void word(std::string& member, const char* name, Choices choices) {
+    for (const Wanted& wanted : choices) {
+      const Trait* trait = firstOf(traits_, wanted);
+      if (trait == nullptr || trait->value.empty()) continue;
+      member = trait->value;
+      return remember(presets_, name, *trait);
+    }
   }
 
-  void number(std::optional<PresetRange>& member, const char* name, const Wanted& wanted) {
-    const Trait* trait = firstOf(traits_, wanted);
-    if (trait == nullptr || !trait->high) return;
-    const double factor = trait->unit == "pairs" ? 2 : 1;
-    member = rangeOf(*trait, factor);
-    remember(presets_, name, *trait);
+  void number(std::optional<PresetRange>& member, const char* name, Choices choices) {
+    for (const Wanted& wanted : choices) {
+      const Trait* trait = firstOf(traits_, wanted);
+      if (trait == nullptr || !trait->high) continue;
+      member = rangeOf(*trait, trait->unit == "pairs" ? 2 : 1);
+      return remember(presets_, name, *trait);
+    }
   }
 
-  void size(std::optional<PresetRange>& member, const char* name, const Wanted& wanted) {
-    const Trait* trait = firstOf(traits_, wanted);
-    const std::optional<double> metres = trait == nullptr || !trait->high ? std::nullopt : metresPer(trait->unit);
-    if (!metres) return;
-    member = rangeOf(*trait, *metres);
-    remember(presets_, name, *trait);
+  void size(std::optional<PresetRange>& member, const char* name, Choices choices) {
+    for (const Wanted& wanted : choices) {
+      const Trait* trait = firstOf(traits_, wanted);
+      const std::optional<double> metres = trait == nullptr || !trait->high ? std::nullopt : metresPer(trait->unit);
+      if (!metres) continue;
+      member = rangeOf(*trait, *metres);
+      return remember(presets_, name, *trait);
+    }
   }
 
   // The first statement among `values` of a category, by the column that says what draws it.
@@ -104,69 +113,63 @@ class Setter {
 };
 
 void setLeaf(Setter& set, LeafPreset& leaf) {
-  set.word(leaf.type, "leaf.type", {"leaf", "type"});
-  set.word(leaf.apex, "leaf.apex", {"leaf", "apex"});
-  set.word(leaf.base, "leaf.base", {"leaf", "base"});
-  set.word(leaf.margin, "leaf.margin", {"leaf", "margin"});
-  set.word(leaf.venation, "leaf.venation", {"leaf", "venation"});
-  set.word(leaf.attachment, "leaf.attachment", {"leaf", "attachment"});
-  set.word(leaf.colour, "leaf.colour", {"leaf", "colour"});
-  set.size(leaf.length_m, "leaf.length_m", {"leaf", "length"});
-  set.size(leaf.width_m, "leaf.width_m", {"leaf", "width"});
-  set.size(leaf.petiole_m, "leaf.petiole_m", {"petiole", "length"});
-  set.number(leaf.angle_deg, "leaf.angle_deg", {"leaf", "angle"});
-  set.number(leaf.leaflets, "leaf.leaflets", {"leaflet", "count"});
-  set.word(leaf.leafletShape, "leaf.leafletShape", {"leaflet", "shape"});
-  set.size(leaf.leafletLength_m, "leaf.leafletLength_m", {"leaflet", "length"});
-  set.size(leaf.leafletWidth_m, "leaf.leafletWidth_m", {"leaflet", "width"});
-  set.number(leaf.lobes, "leaf.lobes", {"leaf", "count", "lobe"});
+  set.word(leaf.type, "leaf.type", {{"leaf", "type"}, {"leaf", "type", anyPart}});
+  // Of a compound leaf the leaflets have the tip, the foot and the edge.
+  set.word(leaf.apex, "leaf.apex", {{"leaf", "apex"}, {"leaflet", "apex"}, {"leaf", "apex", anyPart}});
+  set.word(leaf.base, "leaf.base", {{"leaf", "base"}, {"leaflet", "base"}, {"leaf", "base", anyPart}});
+  set.word(leaf.margin, "leaf.margin", {{"leaf", "margin"}, {"leaflet", "margin"}, {"leaf", "margin", anyPart}});
+  set.word(leaf.venation, "leaf.venation", {{"leaf", "venation"}, {"leaflet", "venation"}, {"vein", "venation"}});
+  set.word(leaf.attachment, "leaf.attachment", {{"leaf", "attachment"}});
+  set.word(leaf.colour, "leaf.colour", {{"leaf", "colour"}, {"leaflet", "colour"}});
+  set.size(leaf.length_m, "leaf.length_m", {{"leaf", "length"}});
+  set.size(leaf.width_m, "leaf.width_m", {{"leaf", "width"}});
+  set.size(leaf.petiole_m, "leaf.petiole_m", {{"petiole", "length"}});
+  set.number(leaf.angle_deg, "leaf.angle_deg", {{"leaf", "angle"}});
+  set.number(leaf.leaflets, "leaf.leaflets", {{"leaflet", "count"}});
+  set.word(leaf.leafletShape, "leaf.leafletShape", {{"leaflet", "shape"}});
+  set.size(leaf.leafletLength_m, "leaf.leafletLength_m", {{"leaflet", "length"}});
+  set.size(leaf.leafletWidth_m, "leaf.leafletWidth_m", {{"leaflet", "width"}});
+  set.number(leaf.lobes, "leaf.lobes", {{"leaf", "count", "lobe"}});
   // 5-8 pairs and one at the end.
   if (leaf.type == "odd-pinnate" && leaf.leaflets && static_cast<long>(leaf.leaflets->low) % 2 == 0)
     for (double* number : {&leaf.leaflets->minimum, &leaf.leaflets->low, &leaf.leaflets->high, &leaf.leaflets->maximum}) *number += 1;
 }
 
 void setPlant(Setter& set, PlantPreset& plant) {
-  set.word(plant.lifeForm, "plant.lifeForm", {"plant", "life form"});
+  set.word(plant.lifeForm, "plant.lifeForm", {{"plant", "life form"}});
   set.oneOf(plant.duration, "plant.duration", "duration", {"annual", "biennial", "perennial", "evergreen", "deciduous"});
-  set.word(plant.habit, "plant.habit", {"plant", "habit"});
-  if (plant.habit.empty()) set.word(plant.habit, "plant.habit", {"stem", "habit"});
+  set.word(plant.habit, "plant.habit", {{"plant", "habit"}, {"stem", "habit"}});
   set.oneOf(plant.branching, "plant.branching", "habit", {"monopodial", "sympodial", "dichotomous", "tufted"});
-  set.size(plant.height_m, "plant.height_m", {"plant", "height"});
-  set.number(plant.branchAngle_deg, "plant.branchAngle_deg", {"branch", "angle"});
-  set.word(plant.stemSection, "plant.stemSection", {"stem", "section"});
-  if (plant.stemSection.empty()) set.word(plant.stemSection, "plant.stemSection", {"branch", "section"});
+  set.size(plant.height_m, "plant.height_m", {{"plant", "height"}, {"stem", "height"}});
+  set.number(plant.branchAngle_deg, "plant.branchAngle_deg", {{"branch", "angle"}});
+  set.word(plant.stemSection, "plant.stemSection", {{"stem", "section"}, {"branch", "section"}});
 }
 
 void setFlower(Setter& set, FlowerPreset& flower) {
   set.drawn(flower.form, "flower.form", "", "form", "flower", "shape");
   set.oneOf(flower.symmetry, "flower.symmetry", "form", {"actinomorphic", "zygomorphic"});
-  set.number(flower.merosity, "flower.merosity", {"flower", "merosity"});
-  set.number(flower.petals, "flower.petals", {"petal", "count"});
-  if (!flower.petals) set.number(flower.petals, "flower.petals", {"tepal", "count"});
-  if (!flower.petals) set.number(flower.petals, "flower.petals", {"corolla", "count", "lobe"});
-  set.number(flower.sepals, "flower.sepals", {"sepal", "count"});
-  set.number(flower.stamens, "flower.stamens", {"stamen", "count"});
-  set.word(flower.petalShape, "flower.petalShape", {"petal", "shape"});
-  if (flower.petalShape.empty()) set.word(flower.petalShape, "flower.petalShape", {"corolla", "shape", "lobe"});
-  for (const std::string_view organ : {"petal", "corolla", "flower", "tepal"})
-    if (flower.colour.empty()) set.word(flower.colour, "flower.colour", {organ, "colour"});
-  set.size(flower.petalLength_m, "flower.petalLength_m", {"petal", "length"});
-  set.size(flower.tubeLength_m, "flower.tubeLength_m", {"corolla", "length", "tube"});
-  set.size(flower.diameter_m, "flower.diameter_m", {"flower", "diameter"});
-  set.word(flower.inflorescence, "flower.inflorescence", {"inflorescence", "type"});
-  set.word(flower.position, "flower.position", {"inflorescence", "position"});
-  if (flower.position.empty()) set.word(flower.position, "flower.position", {"flower", "position"});
-  set.size(flower.inflorescenceLength_m, "flower.inflorescenceLength_m", {"inflorescence", "length"});
-  set.number(flower.flowersPerInflorescence, "flower.flowersPerInflorescence", {"flower", "count"});
+  set.number(flower.merosity, "flower.merosity", {{"flower", "merosity"}, {"corolla", "merosity"}});
+  set.number(flower.petals, "flower.petals", {{"petal", "count"}, {"tepal", "count"}, {"corolla", "count", "lobe"}});
+  set.number(flower.sepals, "flower.sepals", {{"sepal", "count"}, {"calyx", "count", "lobe"}});
+  set.number(flower.stamens, "flower.stamens", {{"stamen", "count"}});
+  set.word(flower.petalShape, "flower.petalShape", {{"petal", "shape"}, {"corolla", "shape", "lobe"}, {"corolla", "shape", anyPart}});
+  set.word(flower.colour, "flower.colour", {{"petal", "colour"}, {"corolla", "colour"}, {"flower", "colour"}, {"tepal", "colour"}});
+  set.size(flower.petalLength_m, "flower.petalLength_m", {{"petal", "length"}});
+  set.size(flower.tubeLength_m, "flower.tubeLength_m", {{"corolla", "length", "tube"}});
+  set.size(flower.diameter_m, "flower.diameter_m", {{"flower", "diameter"}, {"corolla", "diameter", anyPart}});
+  set.word(flower.inflorescence, "flower.inflorescence", {{"inflorescence", "type"}});
+  set.word(flower.position, "flower.position", {{"inflorescence", "position"}, {"flower", "position"}});
+  set.size(flower.inflorescenceLength_m, "flower.inflorescenceLength_m", {{"inflorescence", "length"}});
+  set.number(flower.flowersPerInflorescence, "flower.flowersPerInflorescence", {{"flower", "count"}});
 }
 
 void setFruit(Setter& set, FruitPreset& fruit) {
-  set.word(fruit.type, "fruit.type", {"fruit", "type"});
+  set.word(fruit.type, "fruit.type", {{"fruit", "type"}});
   set.drawn(fruit.form, "fruit.form", "fruit", "type", "fruit", "shape");
-  set.word(fruit.shape, "fruit.shape", {"fruit", "shape"});
-  set.word(fruit.colour, "fruit.colour", {"fruit", "colour"});
-  set.size(fruit.length_m, "fruit.length_m", {"fruit", "length"});
-  set.size(fruit.diameter_m, "fruit.diameter_m", {"fruit", "diameter"});
+  set.word(fruit.shape, "fruit.shape", {{"fruit", "shape"}});
+  set.word(fruit.colour, "fruit.colour", {{"fruit", "colour"}});
+  set.size(fruit.length_m, "fruit.length_m", {{"fruit", "length"}});
+  set.size(fruit.diameter_m, "fruit.diameter_m", {{"fruit", "diameter"}});
 }
 
 }  // namespace

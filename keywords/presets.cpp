@@ -182,7 +182,7 @@ Presets presetsOf(const Traits& traits) {
   setSize(presets.leafLength_m, presets, "leafLength_m", traits, "length");
   setSize(presets.leafWidth_m, presets, "leafWidth_m", traits, "width");
   setGroups(presets, traits);
-  presets.leafModel = leafModelOf(traits, withGroups(traits, presets));
+  presets.leafModel = leafModelOf(traits, presets);
   return presets;
 }
 
