@@ -1,6 +1,7 @@
 #include "skeleton3d/uncertainty.hpp"
 
 #include "simulated_plants.hpp"
+#include "skeleton3d/snap_place.hpp"
 #include "skeleton3d/solve.hpp"
 
 #include <Eigen/Geometry>
@@ -90,6 +91,49 @@ Covered unknownCameras(int plants, const test::HandheldOptions& options) {
     addPlaces(turnedToFit(plant, cameras->uncertainty), cameras->uncertainty, covered);
   }
   return covered;
+}
+
+/// Centre lines as photos would show them beside the clicks: along the stem as it is seen, `sigma_px` off across it.
+RidgeReadings linesBeside(const test::HandheldPlant& plant, double sigma_px, Rng& rng) {
+  RidgeReadings readings;
+  for (const View& view : plant.truth)
+    for (const auto& stem : plant.stems)
+      for (std::size_t k = 1; k < stem.size(); ++k) {
+        const auto& clicks = plant.nodes[static_cast<std::size_t>(stem[k])].clicks;
+        const auto click = clicks.find(view.name);
+        if (click == clicks.end()) continue;
+        const glm::dvec2 here = project(view.camera, plant.places[static_cast<std::size_t>(stem[k])]).px;
+        const glm::dvec2 along = glm::normalize(here - project(view.camera, plant.places[static_cast<std::size_t>(stem[k - 1])]).px), across{-along.y, along.x};
+        RidgeReading reading;
+        reading.along = Angle::fromRadians(std::atan2(along.y, along.x));
+        reading.at.px = here + sigma_px * rng.normal() * across + glm::dot(click->second.px - here, along) * along;
+        reading.sigmaAcross_px = sigma_px;
+        reading.confidence = 0.9;
+        readings[view.name][NodeId(stem[k])] = reading;
+      }
+  return readings;
+}
+
+TEST(Uncertainty, CoversTheTruthWhereClicksAreSnapped) {
+  std::printf("seeds from %d\n", static_cast<int>(kFirstSeed));
+  Covered unknown, known;
+  for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + 60; ++seed) {
+    const auto plant = test::handheldPlant(seed, {.noise_px = 3});
+    Rng rng(seed);
+    const RidgeReadings lines = linesBeside(plant, 0.3, rng);
+    const auto clicked = estimateCameras(plant.views, plant.hints, plant.nodes);
+    ASSERT_TRUE(clicked) << "seed " << seed << ": " << clicked.error().message;
+    const auto cameras = estimateCameras(plant.views, plant.hints, plant.nodes, {.click_px = clicked->uncertainty.click_px, .centreLines = lines});
+    ASSERT_TRUE(cameras) << "seed " << seed << ": " << cameras.error().message;
+    addShape(plant, cameras->uncertainty, unknown);
+    addPlaces(turnedToFit(plant, cameras->uncertainty), cameras->uncertainty, unknown);
+    const auto placed = placeSnapped(plant.truth, plant.nodes, lines, 3);
+    ASSERT_TRUE(placed) << placed.error().message;
+    for (const SnappedNode& node : *placed)
+      for (int k = 0; k < 3; ++k) known.nodes.add(node.at.at[k] - plant.places[static_cast<std::size_t>(node.id.value)].at[k], std::sqrt(node.covariance[k][k]));
+  }
+  unknown.expectTrue("unknown, snapped");
+  known.nodes.expectTrue("known, snapped, coordinates");
 }
 
 TEST(Uncertainty, CoversTheTruthWithKnownCameras) {
