@@ -3,6 +3,7 @@
 #include "base/overloaded.hpp"
 #include "base/text.hpp"
 #include "base/turning.hpp"
+#include "emit/turtle_statements.hpp"
 #include "emit/turtle_syntax.hpp"
 #include "simeco/derive.hpp"
 #include "simeco/growth.hpp"
@@ -63,7 +64,7 @@ struct RuleText {
 class ProgramWriter {
  public:
   ProgramWriter(const Grammar& grammar, TurtleLanguage language)
-      : grammar_(grammar), plant_(grammar.plants.front()), rules_(plant_.rules), language_(language), writer_(grammar, language) {
+      : grammar_(grammar), plant_(grammar.plants.front()), rules_(plant_.rules), language_(language), writer_(grammar, language), statements_(rules_, writer_) {
     for (const simeco::OrganBlock& block : plant_.organs)
       for (const Stage& stage : block.stages) bodies_[{simeco::letterOf(block.kind), stage.number}] = {block.kind, &stage, &block};
     stochastic_ = std::any_of(rules_.productions.begin(), rules_.productions.end(), [](const Production& p) { return p.successors.size() > 1; });
@@ -83,9 +84,9 @@ class ProgramWriter {
         if (letter.size() == 1) text += " " + letterFor(letter);
       text += "\n";
     }
-    if (!rules_.arrays.empty()) text += cpfgArrays();
+    if (!rules_.arrays.empty()) text += statements_.cpfgArrays();
     const std::string start = axiom();  // what it draws stands in the block before it
-    text += cpfgBlock("Start", rules_.start, axiomDraws_) + cpfgBlock("StartEach", rules_.startEach) + cpfgBlock("EndEach", rules_.endEach) + cpfgBlock("End", rules_.end);
+    text += statements_.cpfgBlock("Start", rules_.start, axiomDraws_) + statements_.cpfgBlock("StartEach", rules_.startEach) + statements_.cpfgBlock("EndEach", rules_.endEach) + statements_.cpfgBlock("End", rules_.end);
     text += "Axiom: " + start + "\n";
     for (std::size_t p = 0; p < rules_.productions.size(); ++p) text += cpfgRule(p);
     return finished(text + "endlsystem\n");
@@ -98,9 +99,9 @@ class ProgramWriter {
                        "from math import *\nfrom random import seed, uniform, gauss\n\ndef sign(x): return (x > 0) - (x < 0)\n";
     if (isRandom()) text += "seed(" + std::to_string(seed) + ")\n";
     for (const auto& [name, value] : environment()) text += name + " = " + value + "\n";
-    for (const simeco::ArrayDeclaration& array : rules_.arrays) text += pythonArray(array);
-    for (const std::string& name : globals()) text += name + " = 0\n";
-    text += pythonBlock("Start", rules_.start) + pythonBlock("StartEach", rules_.startEach) + pythonBlock("EndEach", rules_.endEach) + pythonBlock("End", rules_.end);
+    for (const simeco::ArrayDeclaration& array : rules_.arrays) text += statements_.pythonArray(array);
+    for (const std::string& name : statements_.globals()) text += name + " = 0\n";
+    text += statements_.pythonBlock("Start", rules_.start) + statements_.pythonBlock("StartEach", rules_.startEach) + statements_.pythonBlock("EndEach", rules_.endEach) + statements_.pythonBlock("End", rules_.end);
     const std::string start = axiom();
     for (const std::string& draw : axiomDraws_) text += "\n" + draw;
     text += "\nAxiom: " + start + "\n\nderivation length: " + std::to_string(steps) + "\nproduction:\n";
@@ -153,125 +154,11 @@ class ProgramWriter {
         if (used.contains(a.name)) known.emplace_back(a.name, writer_.text(a.value));
     return known;
   }
-  std::set<std::string> globals() const {
-    std::set<std::string> names;
-    for (const simeco::Block* block : {&rules_.start, &rules_.startEach, &rules_.endEach, &rules_.end}) assigned(*block, names);
-    return names;
-  }
-  static void assigned(const simeco::Block& block, std::set<std::string>& names) {
-    for (const simeco::Statement& s : block) {
-      if (const auto* assign = std::get_if<simeco::Assign>(&s.node)) names.insert(assign->name);
-      if (const auto* branch = std::get_if<simeco::If>(&s.node)) assigned(branch->yes, names), assigned(branch->no, names);
-      if (const auto* loop = std::get_if<simeco::While>(&s.node)) assigned(loop->body, names);
-    }
-  }
   bool isRandom() const {
     return stochastic_ || std::any_of(grammar_.expressions.begin(), grammar_.expressions.end(), [](const simeco::Expr& expr) {
              const auto* call = std::get_if<simeco::Call>(&expr.node);
              return call != nullptr && (call->function == "random" || call->function == "normal");
            });
-  }
-
-  // ---- statements ----
-
-  std::string cpfgStatements(const simeco::Block& block, const std::vector<std::string>& draws = {}) {
-    std::string text;
-    for (const std::string& draw : draws) text += draw + "; ";
-    for (const simeco::Statement& s : block) {
-      std::string own = std::visit(
-          overloaded{[&](const simeco::Assign& x) { return x.name + " = " + writer_.text(x.value) + "; "; },
-                     [&](const simeco::AssignElement& x) {
-                       std::string place = x.array;
-                       for (const ExprId index : x.indices) place += "[" + writer_.text(index) + "]";
-                       return place + " = " + writer_.text(x.value) + "; ";
-                     },
-                     [&](const simeco::Evaluate& x) { return writer_.text(x.value) + "; "; },
-                     [&](const simeco::If& x) {
-                       std::string all = "if (" + writer_.text(x.condition) + ") {" + cpfgStatements(x.yes) + "} ";
-                       return x.no.empty() ? all : all + "else {" + cpfgStatements(x.no) + "} ";
-                     },
-                     [&](const simeco::While& x) {
-                       const std::string condition = writer_.text(x.condition);
-                       const std::string body = "{" + cpfgStatements(x.body) + "} ";
-                       return x.testFirst ? "while (" + condition + ") " + body : "do " + body + "while (" + condition + "); ";
-                     }},
-          s.node);
-      for (const std::string& draw : writer_.takeDraws()) text += draw + "; ";
-      text += own;
-    }
-    return text;
-  }
-  std::string cpfgBlock(const char* name, const simeco::Block& block, const std::vector<std::string>& draws = {}) {
-    std::string text = cpfgStatements(block);
-    for (const std::string& draw : draws) text += draw + "; ";
-    return text.empty() ? text : std::string(name) + ": {" + text + "}\n";
-  }
-  std::string cpfgArrays() {
-    std::string text = "define: { array ";
-    for (const simeco::ArrayDeclaration& array : rules_.arrays) {
-      if (&array != &rules_.arrays.front()) text += ",\n  ";
-      text += array.name;
-      for (const int size : array.sizes) text += "[" + std::to_string(size) + "]";
-      for (std::size_t i = 0; i < array.initial.size(); ++i) text += (i == 0 ? "={" : ",") + writer_.text(array.initial[i]);
-      if (!array.initial.empty()) text += "}";
-    }
-    return text + "; }\n";
-  }
-
-  std::string pythonStatements(const simeco::Block& block, const std::string& indent) {
-    std::string text;
-    for (const simeco::Statement& s : block) {
-      std::string own = std::visit(
-          overloaded{[&](const simeco::Assign& x) { return indent + x.name + " = " + writer_.text(x.value) + "\n"; },
-                     [&](const simeco::AssignElement& x) {
-                       std::string place = x.array;
-                       for (const ExprId index : x.indices) place += "[int(" + writer_.text(index) + ")]";
-                       return indent + place + " = " + writer_.text(x.value) + "\n";
-                     },
-                     [&](const simeco::Evaluate& x) { return indent + writer_.text(x.value) + "\n"; },
-                     [&](const simeco::If& x) {
-                       std::string all = indent + "if " + writer_.text(x.condition) + ":\n" + bodyOf(x.yes, indent);
-                       return x.no.empty() ? all : all + indent + "else:\n" + bodyOf(x.no, indent);
-                     },
-                     [&](const simeco::While& x) {
-                       const std::string condition = writer_.text(x.condition);
-                       if (x.testFirst) return indent + "while " + condition + ":\n" + bodyOf(x.body, indent);
-                       return indent + "while True:\n" + bodyOf(x.body, indent) + indent + "  if not " + condition + ": break\n";
-                     }},
-          s.node);
-      for (const std::string& draw : writer_.takeDraws()) text += indent + draw + "\n";
-      text += own;
-    }
-    return text;
-  }
-  std::string bodyOf(const simeco::Block& block, const std::string& indent) {
-    return block.empty() ? indent + "  pass\n" : pythonStatements(block, indent + "  ");
-  }
-  std::string globalLine(const std::string& indent) const {
-    std::string line;
-    for (const std::string& name : globals()) line += (line.empty() ? indent + "global " : ", ") + name;
-    return line.empty() ? line : line + "\n";
-  }
-  std::string pythonBlock(const char* name, const simeco::Block& block) {
-    return block.empty() ? std::string{} : "\ndef " + std::string(name) + "():\n" + globalLine("  ") + pythonStatements(block, "  ");
-  }
-  std::string pythonArray(const simeco::ArrayDeclaration& array) {
-    std::vector<std::string> values;
-    std::size_t total = 1;
-    for (const int size : array.sizes) total *= static_cast<std::size_t>(size);
-    for (std::size_t i = 0; i < total; ++i) values.push_back(i < array.initial.size() ? writer_.text(array.initial[i]) : "0");
-    // Rows are folded from the innermost index outwards.
-    for (std::size_t level = array.sizes.size(); level-- > 0;) {
-      const auto width = static_cast<std::size_t>(array.sizes[level]);
-      std::vector<std::string> rows;
-      for (std::size_t i = 0; i < values.size(); i += width) {
-        std::string row = "[";
-        for (std::size_t k = 0; k < width; ++k) row += (k == 0 ? "" : ",") + values[i + k];
-        rows.push_back(row + "]");
-      }
-      values = std::move(rows);
-    }
-    return array.name + " = " + values.front() + "\n";
   }
 
   // ---- successors ----
@@ -589,7 +476,7 @@ class ProgramWriter {
     const Production& p = rules_.productions[number];
     std::string text;
     for (const std::string& line : p.comments.before)
-      if (!line.empty()) text += "/* " + commentText(line) + " */\n";
+      if (!line.empty()) text += "/* " + turtleComment(line) + " */\n";
     const RuleText rule = ruleText(p);
     const std::string condition = joined(rule.conditions, " && ");
     const std::string others = earlierRules(number);
@@ -603,9 +490,9 @@ class ProgramWriter {
       const bool blocks = !p.before.empty() || !p.after.empty() || !draws.empty();
       const std::string fires = condition.empty() && !others.empty() ? others.substr(4) : condition + others;
       if (blocks || !fires.empty()) line += " : ";
-      if (!p.before.empty()) line += "{" + cpfgStatements(p.before) + "} ";
+      if (!p.before.empty()) line += "{" + statements_.cpfgStatements(p.before) + "} ";
       if (blocks || !fires.empty()) line += fires.empty() ? "*" : fires;
-      if (!p.after.empty() || !draws.empty()) line += " {" + cpfgStatements(p.after) + cpfgStatements({}, draws) + "}";
+      if (!p.after.empty() || !draws.empty()) line += " {" + statements_.cpfgStatements(p.after) + statements_.cpfgStatements({}, draws) + "}";
       line += " --> " + (made.empty() ? "*" : made);
       if (successor.weight) line += " : " + writer_.text(*successor.weight);
       text += line + "\n";
@@ -622,10 +509,10 @@ class ProgramWriter {
     header += joined(rule.predecessor, "");
     if (!rule.right.empty()) header += " > " + joined(rule.right, "");
     std::string text;
-    if (header != open) text += "\n" + header + " :\n" + globalLine("  ");
+    if (header != open) text += "\n" + header + " :\n" + statements_.globalLine("  ");
     open = header;
     for (const std::string& line : p.comments.before)
-      if (!line.empty()) text += "  # " + commentText(line) + "\n";
+      if (!line.empty()) text += "  # " + turtleComment(line) + "\n";
     // The statements before the condition run once a module's numbers fit.
     std::string indent = "  ";
     std::vector<std::string> conditions = rule.conditions;
@@ -633,11 +520,11 @@ class ProgramWriter {
       std::vector<std::string> demands;
       for (const auto& [name, value] : rule.demands) demands.push_back(name + " == " + value);
       if (!demands.empty()) text += indent + "if " + joined(demands, " and ") + " :\n", indent += "  ";
-      text += pythonStatements(p.before, indent);
+      text += statements_.pythonStatements(p.before, indent);
       conditions.erase(conditions.begin(), conditions.begin() + static_cast<std::ptrdiff_t>(demands.size()));
     }
     if (!conditions.empty()) text += indent + "if " + joined(conditions, " and ") + " :\n", indent += "  ";
-    text += pythonStatements(p.after, indent);
+    text += statements_.pythonStatements(p.after, indent);
     return text + pythonChoice(p, indent);
   }
   std::string pythonChoice(const Production& p, const std::string& indent) {
@@ -662,17 +549,10 @@ class ProgramWriter {
 
   // ---- heading ----
 
-  static std::string commentText(const std::string& line) {
-    std::string text = line;
-    for (const char* mark : {"/*", "*/", "//"})
-      for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark)) text.erase(at, 2);
-    const std::size_t first = text.find_first_not_of(' ');
-    return first == std::string::npos ? "" : text.substr(first);
-  }
   std::string heading(const std::string& open, const std::string& close, const std::string& widths) const {
     std::string text;
     for (const std::string& line : grammar_.comments.before)
-      if (!line.empty()) text += open + commentText(line) + close;
+      if (!line.empty()) text += open + turtleComment(line) + close;
     text += open + "Angles are degrees, " + widths + close;
     text += open + "What this language does not carry over: continuous growth (organs appear fully grown, step by step), organ models, textures and" + close;
     text += open + "colours, and leaf shapes (a leaf is a diamond of its length and width). A blade that runs exactly along its stem may be rolled otherwise." + close;
@@ -685,6 +565,7 @@ class ProgramWriter {
   const simeco::RuleSet& rules_;
   TurtleLanguage language_;
   ExpressionWriter writer_;
+  StatementWriter statements_;
   std::map<std::pair<std::string, int>, Body> bodies_;
   bool stochastic_ = false;
   std::vector<std::string> axiomDraws_;

@@ -46,6 +46,14 @@ std::string turtleNumber(double value) {
   return text;
 }
 
+std::string turtleComment(const std::string& line) {
+  std::string text = line;
+  for (const char* mark : {"/*", "*/", "//"})
+    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark)) text.erase(at, 2);
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first);
+}
+
 std::optional<double> ExpressionWriter::constant(simeco::ExprId id) const {
   using Value = std::optional<double>;
   return std::visit(overloaded{[](const simeco::Number& x) -> Value { return x.value; },

@@ -47,5 +47,7 @@ class ExpressionWriter {
 
 /// A number as both languages read it: with an exponent only behind a point.
 [[nodiscard]] std::string turtleNumber(double value);
+/// A comment line without its marks, and with nothing that would end a comment of either language.
+[[nodiscard]] std::string turtleComment(const std::string& line);
 
 }  // namespace axil::emit
