@@ -4,6 +4,7 @@
 #include "app/terminal.hpp"
 #include "document/plant_file.hpp"
 #include "quantify/compare.hpp"
+#include "quantify/layers.hpp"
 #include "quantify/stalks.hpp"
 #include "render/render.hpp"
 #include "simeco/simeco.hpp"
@@ -33,6 +34,7 @@ struct CompareCommand {
 };
 
 constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr const char* kNoUnit = "";  // of plants that grammars grow: numbers alone
 const std::map<std::string, quantify::SilhouetteView> kViews = {
     {"front", quantify::SilhouetteView::Front}, {"right", quantify::SilhouetteView::Right}, {"top", quantify::SilhouetteView::Top}};
 
@@ -58,7 +60,9 @@ Result<Measurements> grownPlant(const std::string& path, std::uint64_t seed) {
   if (!plant) return plant.failure();
   const auto skeleton = render::skeletonOf(*plant);
   if (!skeleton) return skeleton.failure();
-  return quantify::measure(quantify::withoutStalks(*skeleton));
+  auto measured = quantify::measure(quantify::withoutStalks(*skeleton));
+  if (measured) measured->unit = kNoUnit;
+  return measured;
 }
 
 bool isGrammar(const fs::path& path) { return path.extension() == ".simeco" || path.extension() == ".l"; }
@@ -146,15 +150,34 @@ std::string setsText(const quantify::SetComparison& all, std::size_t a, std::siz
   return text + "lengths are shares of the mean height of A; angles are radians\n";
 }
 
+/// All plants of both sides in one unit. A grammar's numbers are in the unit that a measured plant has.
+Result<std::vector<Measurements>> inOneUnit(std::vector<Measurements> plants) {
+  const auto measured = std::find_if(plants.begin(), plants.end(), [](const Measurements& m) { return m.unit != kNoUnit; });
+  const std::string unit = measured == plants.end() ? "m" : measured->unit;
+  for (Measurements& m : plants)
+    if (m.unit == kNoUnit) m.unit = unit;
+  std::vector<std::string> warnings;
+  auto same = quantify::inOneUnit(plants, warnings);
+  for (const std::string& warning : warnings) std::fprintf(stderr, "axil: warning: %s\n", warning.c_str());
+  return same;
+}
+
 int run(const CompareCommand& given) {
   CompareCommand command = given;
   if (command.views.empty()) command.views = {"front", "right", "top"};
   command.options.views.clear();
   for (const std::string& view : command.views) command.options.views.push_back(kViews.at(view));
-  const auto a = plantsOf(command.a, command);
+  auto a = plantsOf(command.a, command);
   if (!a) return report(a.error());
-  const auto b = plantsOf(command.b, command);
+  auto b = plantsOf(command.b, command);
   if (!b) return report(b.error());
+  std::vector<Measurements> both = *a;
+  both.insert(both.end(), b->begin(), b->end());
+  const auto same = inOneUnit(std::move(both));
+  if (!same) return report(same.error());
+  const auto middle = same->begin() + static_cast<std::ptrdiff_t>(a->size());
+  a->assign(same->begin(), middle);
+  b->assign(middle, same->end());
   if (a->size() > 1 || b->size() > 1) {
     const auto distances = quantify::compareSets(*a, *b);
     if (!distances) return report(distances.error());
