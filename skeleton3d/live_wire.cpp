@@ -29,7 +29,7 @@ using detail::StemCell;
 using detail::StemLine;
 using detail::StemnessMap;
 
-constexpr std::size_t kMostPlaces = 300;  ///< along a way; bounds the time of a step
+constexpr std::size_t kMostPlaces = 180;  ///< along a way; bounds the time of a step
 
 glm::dvec2 acrossOf(glm::dvec2 along) { return {-along.y, along.x}; }
 

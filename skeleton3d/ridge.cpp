@@ -23,6 +23,12 @@ glm::vec4 bilinear(const Photo& photo, const StemLikelihood& likelihood, glm::dv
   const double fx = std::floor(x), fy = std::floor(y);
   const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
   const auto u = static_cast<float>(x - fx), v = static_cast<float>(y - fy);
+  if (likelihood.empty() && ix >= 0 && iy >= 0 && ix + 1 < photo.width && iy + 1 < photo.height) {  // nearly always, and three times as fast
+    const std::size_t row = std::size_t{3} * static_cast<std::size_t>(photo.width);
+    const std::uint8_t *above = photo.rgb.data() + static_cast<std::size_t>(iy) * row + std::size_t{3} * static_cast<std::size_t>(ix), *below = above + row;
+    const auto at = [](const std::uint8_t* rgb) { return glm::vec4(rgb[0], rgb[1], rgb[2], 0.0F); };
+    return (at(above) * (1 - u) + at(above + 3) * u) * (1 - v) + (at(below) * (1 - u) + at(below + 3) * u) * v;
+  }
   return (pixel(photo, likelihood, ix, iy) * (1 - u) + pixel(photo, likelihood, ix + 1, iy) * u) * (1 - v) +
          (pixel(photo, likelihood, ix, iy + 1) * (1 - u) + pixel(photo, likelihood, ix + 1, iy + 1) * u) * v;
 }
@@ -63,11 +69,12 @@ RidgeProfile profileAcross(const Photo& photo, const StemLikelihood& likelihood,
   const int half = static_cast<int>(std::ceil(options.reach_px / kRidgeStep_px));
   profile.reach_px = half * kRidgeStep_px;
   const glm::dvec2 along{-across.y, across.x};
+  const int stride = options.along_px >= 3 ? 2 : 1;
   for (int i = -half; i <= half; ++i) {
     const glm::dvec2 at = centre + i * kRidgeStep_px * across;
     glm::vec4 sum(0.0F);
-    for (int k = -options.along_px; k <= options.along_px; ++k) sum += bilinear(photo, likelihood, at + static_cast<double>(k) * along);
-    profile.colour.push_back(sum / static_cast<float>(2 * options.along_px + 1));
+    for (int k = -options.along_px; k <= options.along_px; k += stride) sum += bilinear(photo, likelihood, at + static_cast<double>(k) * along);
+    profile.colour.push_back(sum / static_cast<float>(2 * options.along_px / stride + 1));
   }
   profile.slope = slopesOf(profile.colour, options.blur_px);
   return profile;

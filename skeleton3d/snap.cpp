@@ -31,7 +31,7 @@ double nearness(double middle, double width, double reach_px) {
 Band bestBand(const RidgeProfile& profile, double maxWidth_px, double reach_px) {
   Band best;
   for (double width = 2; width <= maxWidth_px; width *= 1.2)
-    for (double middle = -reach_px; middle <= reach_px; middle += 2 * kRidgeStep_px) {
+    for (double middle = -reach_px; middle <= reach_px; middle += (width > 24 ? 4 : 2) * kRidgeStep_px) {
       const double strength = ridgeStrength(profile, middle - 0.5 * width, middle + 0.5 * width);
       const double score = strength * nearness(middle, width, reach_px);
       if (score > best.score) best = {middle - 0.5 * width, middle + 0.5 * width, strength, score};

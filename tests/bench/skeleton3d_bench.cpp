@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,53 @@ void estimateCamerasBenchmark(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(estimateCameras(clicks.views, clicks.hints, clicks.nodes).has_value());
 }
 BENCHMARK(estimateCamerasBenchmark)->Name("skeleton3d/estimate_cameras")->Arg(500)->Unit(benchmark::kMillisecond);
+
+/// A photo of 12 megapixels: bent stems of 6 to 60 px before a grainy wall.
+std::shared_ptr<const Photo> largePhoto() {
+  auto photo = std::make_shared<Photo>(Photo{4000, 3000, {}});
+  photo->rgb.resize(std::size_t{3} * 4000 * 3000);
+  Rng rng(7);
+  for (std::uint8_t& byte : photo->rgb) byte = static_cast<std::uint8_t>(196 + 6 * rng.uniform());
+  for (int stem = 0; stem < 12; ++stem)
+    for (int y = 200; y < 2800; ++y) {
+      const double middle = 300 + 290 * stem + 120 * std::sin(0.003 * y + stem), half = 3 + 2.2 * stem;
+      for (int x = static_cast<int>(middle - half); x < static_cast<int>(middle + half); ++x) {
+        std::uint8_t* rgb = photo->rgb.data() + 3 * (static_cast<std::size_t>(y) * 4000 + static_cast<std::size_t>(x));
+        rgb[0] = 70, rgb[1] = 120, rgb[2] = 50;
+      }
+    }
+  return photo;
+}
+
+PhotoPoint onStem(int stem, double y) { return {{300 + 290 * stem + 120 * std::sin(0.003 * y + stem), y}}; }
+
+void prepareWireBenchmark(benchmark::State& state) {
+  const auto photo = largePhoto();
+  for (auto _ : state) benchmark::DoNotOptimize(prepareLiveWire(photo).has_value());
+}
+BENCHMARK(prepareWireBenchmark)->Name("skeleton3d/prepare_live_wire_12_megapixels")->Unit(benchmark::kMillisecond)->Iterations(2);
+
+void startWireBenchmark(benchmark::State& state) {
+  const auto wire = prepareLiveWire(largePhoto());
+  for (auto _ : state) benchmark::DoNotOptimize(startWire(*wire, onStem(4, 300)).has_value());
+}
+BENCHMARK(startWireBenchmark)->Name("skeleton3d/start_live_wire_12_megapixels")->Unit(benchmark::kMillisecond);
+
+/// One move of the mouse, 2400 px away along the stem.
+void wireToBenchmark(benchmark::State& state) {
+  const auto wire = prepareLiveWire(largePhoto());
+  const int stem = static_cast<int>(state.range(0));
+  const auto start = startWire(*wire, onStem(stem, 300));
+  for (auto _ : state) benchmark::DoNotOptimize(wireTo(*start, onStem(stem, 2700)).nodes.size());
+}
+BENCHMARK(wireToBenchmark)->Name("skeleton3d/live_wire_step_12_megapixels")->Arg(0)->Arg(4)->Arg(11)->Unit(benchmark::kMillisecond);
+
+void snapClickBenchmark(benchmark::State& state) {
+  const auto photo = largePhoto();
+  const int stem = static_cast<int>(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(snapClick(*photo, {onStem(stem, 900).px + glm::dvec2{4, 1}}).has_value());
+}
+BENCHMARK(snapClickBenchmark)->Name("skeleton3d/snap_click_12_megapixels")->Arg(0)->Arg(4)->Arg(11)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace axil::skeleton3d
