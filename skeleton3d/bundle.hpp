@@ -45,8 +45,6 @@ struct BundleLine {
   glm::dvec2 px{0, 0};
   glm::dvec2 across{1, 0};  ///< unit
   double sigma_px = 1;
-  std::optional<glm::dvec2> tip = std::nullopt;  ///< where the stem is seen to end, if it does here
-  double sigmaTip_px = 1;
 };
 
 struct BundleClick {

@@ -45,13 +45,8 @@ Target targetOf(const BundleClick& click, double click_px) {
   if (!click.line) return {click.px, evenWeight(sigma_px)};
   const glm::dvec2 across = click.line->across, along{-across.y, across.x};
   const double byClick = 1 / (sigma_px * sigma_px), byLine = 1 / (click.line->sigma_px * click.line->sigma_px), both = byClick + byLine;
-  glm::dvec2 at = click.px + byLine / both * glm::dot(click.line->px - click.px, across) * across;
-  double byTip = 0;
-  if (click.line->tip) {
-    byTip = 1 / (click.line->sigmaTip_px * click.line->sigmaTip_px);
-    at += byTip / (byClick + byTip) * glm::dot(*click.line->tip - click.px, along) * along;
-  }
-  return {at, glm::transpose(glm::dmat2{std::sqrt(both) * across, std::sqrt(byClick + byTip) * along})};
+  const double shift = byLine / both * glm::dot(click.line->px - click.px, across);
+  return {click.px + shift * across, glm::transpose(glm::dmat2{std::sqrt(both) * across, along / sigma_px})};
 }
 
 /// Reprojection error of a click in an unknown camera; both are adjusted. The derivatives are written out, since this is

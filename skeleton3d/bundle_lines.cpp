@@ -5,9 +5,9 @@
 namespace axil::skeleton3d::detail {
 namespace {
 
+/// Without its tip: a rounded end is seen a little further out in every photo, which would pull at the cameras.
 BundleLine lineOf(const RidgeReading& ridge) {
-  const auto tip = ridge.tip ? std::optional(ridge.tip->px) : std::nullopt;
-  return {ridge.at.px, {-std::sin(ridge.along.radians()), std::cos(ridge.along.radians())}, ridge.sigmaAcross_px, tip, ridge.sigmaTip_px};
+  return {ridge.at.px, {-std::sin(ridge.along.radians()), std::cos(ridge.along.radians())}, ridge.sigmaAcross_px};
 }
 
 }  // namespace

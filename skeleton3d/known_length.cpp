@@ -18,6 +18,7 @@ namespace {
 using detail::colourAt;
 
 constexpr double kShortest_px = 40;
+constexpr double kShortestBanded_px = 60;  // a rod seen from above shows no bands of equal length
 constexpr double kStep_px = 0.25;
 constexpr double kFaint = 6;  // grey levels: below it noise
 
@@ -170,7 +171,7 @@ SnappedLength snapKnownLength(const Photo& photo, const KnownLength& clicked, st
   SnappedLength snapped{clicked};
   const double length_px = glm::length(clicked.to.px - clicked.from.px);
   if (photo.width < 2 || photo.height < 2 || !within(photo, clicked.from.px) || !within(photo, clicked.to.px) || length_px < kShortest_px) return snapped;
-  if (const auto bands = detail::bandedEnds(photo, clicked.from.px, clicked.to.px, reachOf(length_px))) return measuredByBands(photo, clicked, *bands, focal_px);
+  if (const auto bands = length_px < kShortestBanded_px ? std::nullopt : detail::bandedEnds(photo, clicked.from.px, clicked.to.px, reachOf(length_px))) return measuredByBands(photo, clicked, *bands, focal_px);
   const auto from = endNear(photo, clicked.from.px, clicked.to.px), to = endNear(photo, clicked.to.px, clicked.from.px);
   snapped.fromMoved = from.has_value();
   snapped.toMoved = to.has_value();

@@ -210,10 +210,7 @@ RidgeReadings readAllRidges(const Photos& photos, std::span<const ClickedNode> n
 RidgeReadings believedReadings(const RidgeReadings& readings, std::span<const SnappedNode> placed) {
   RidgeReadings believed;
   for (const SnappedNode& node : placed)
-    for (const std::string& view : node.snappedIn) {
-      RidgeReading& reading = believed[view].emplace(node.id, readings.at(view).at(node.id)).first->second;
-      if (!node.tipSeen) reading.tip.reset();
-    }
+    for (const std::string& view : node.snappedIn) believed[view].emplace(node.id, readings.at(view).at(node.id));
   return believed;
 }
 
