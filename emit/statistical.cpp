@@ -30,9 +30,9 @@ constexpr double kSome = 0.03, kAll = 0.97;              // of nodes with leaves
 constexpr double kNoBend = 0.2 * std::numbers::pi / 180;
 constexpr const char* kAnySide = "random(-3.142, 3.142)";
 
-/// Four significant digits.
+/// Four significant digits; what rounding leaves of nothing is nothing.
 std::string number(double value) {
-  if (value == 0) return "0";
+  if (std::abs(value) < 1e-12) return "0";
   const int digits = std::clamp(3 - static_cast<int>(std::floor(std::log10(std::abs(value)))), 0, 15);
   return shortest(std::stod(fixed(value, digits)));
 }
