@@ -168,6 +168,24 @@ class Skeleton(Case):
         at = {node["id"]: node["position"] for node in skeleton["nodes"]}
         self.assertAlmostEqual(math.dist(at[14], at[5]), math.dist(true[14], true[5]), delta=0.004)
 
+    def test_a_wrong_click_in_known_cameras_is_named_and_left_out(self):
+        rng, made = random.Random(2), project()
+        points, _ = tree(random.Random(1))
+        for view in made["views"]:
+            camera = Camera(rng, view["name"])
+            low = [-0.2 * row[1] for row in camera.rows]
+            view["camera"] = {"model": "perspective", "focal_px": [camera.focal] * 2, "centre_px": [SIZE[k] / 2 + camera.at[k] for k in (0, 1)],
+                              "rotation": [list(row) for row in camera.rows], "translation": [low[0], low[1], low[2] + camera.distance]}
+            del view["scale"]
+            for node, point in zip(made["nodes"], points):
+                node["clicks"][view["name"]] = [u + rng.gauss(0, 0.5) for u in camera(point)]
+        made["nodes"][7]["clicks"]["right"][0] += 60
+        skeleton, err = self.skeleton(made)
+        self.assertIn("suspect click: node 7 in view right", err)
+        self.assertEqual([(one["node"], one["view"]) for one in skeleton["suspect_clicks"]], [(7, "right")])
+        at = {node["id"]: node["position"] for node in skeleton["nodes"]}
+        self.assertLess(math.dist(at[7], points[7]), 0.002)
+
     def test_photos_without_a_focal_length_do(self):
         made = project()
         for view in made["views"]:

@@ -1,0 +1,115 @@
+#include "skeleton3d/photographed.hpp"
+
+#include "skeleton3d/known_length.hpp"
+#include "skeleton3d/tree.hpp"
+#include "support/cases.hpp"
+#include "support/shared_data.hpp"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace axil::skeleton3d {
+namespace {
+
+struct Photographs {
+  test::PlantCase plant;
+  Photos photos;
+};
+
+/// One rendered plant in cluttered surroundings, with the ends of its rod as the photos show them.
+Photographs photographsOf(const std::filesystem::path& folder, const std::string& kind, const test::PlantCaseOptions& options) {
+  Photographs made{test::readPlantCase(folder, options), {}};
+  for (const View& view : made.plant.views) {
+    auto photo = readPhoto(folder / ("bare_" + options.cameras + "_" + kind + "_" + view.name + ".jpg"));
+    EXPECT_TRUE(photo) << photo.error().message;
+    if (!photo) continue;
+    auto& hints = made.plant.hints[view.name];
+    if (hints.scale) {
+      const SnappedLength snapped = snapKnownLength(*photo, *hints.scale, view.camera.focal_px ? std::optional(view.camera.focal_px->x) : std::nullopt);
+      hints.scale = snapped.scale;
+      hints.scaleSigma_px = snapped.sigma_px;
+    }
+    made.photos[view.name] = *std::move(photo);
+  }
+  return made;
+}
+
+double at(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+struct Fit {
+  double scale = 1;
+  std::vector<double> off;  ///< percent of the height
+};
+
+/// After the best similarity.
+Fit fitted(const test::PlantCase& plant, const std::vector<SnappedNode>& nodes) {
+  Eigen::Matrix3Xd got(3, static_cast<Eigen::Index>(nodes.size())), want = got;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto node = std::find_if(plant.nodes.begin(), plant.nodes.end(), [&](const ClickedNode& n) { return n.id == nodes[i].id; });
+    const glm::dvec3 here = nodes[i].at.at, truth = plant.truth[static_cast<std::size_t>(node - plant.nodes.begin())].at;
+    const auto column = static_cast<Eigen::Index>(i);
+    got.col(column) << here.x, here.y, here.z;
+    want.col(column) << truth.x, truth.y, truth.z;
+  }
+  const Eigen::Matrix4d to = Eigen::umeyama(got, want, true);
+  const Eigen::Matrix3Xd rest = ((to.topLeftCorner<3, 3>() * got).colwise() + to.topRightCorner<3, 1>()) - want;
+  Fit fit{to.topLeftCorner<3, 1>().norm(), {}};
+  for (Eigen::Index c = 0; c < rest.cols(); ++c) fit.off.push_back(100 * rest.col(c).norm() / plant.height_m);
+  return fit;
+}
+
+TEST(Photographed, HandheldPhotosOfUnknownCamerasGiveSizeAndPlaces) {
+  AXIL_SKIP_WITHOUT_SHARED("data/plants/cases");
+  std::printf("seeds 11 and 12\n");
+  const auto folders = test::plantCaseFolders();
+  for (const std::size_t which : {std::size_t{0}, std::size_t{6}})
+    for (const std::uint64_t seed : {11, 12}) {
+      const auto made = photographsOf(folders[which], "clutter", {.cameras = "handheld", .noise_px = 3, .seed = seed, .every = 6, .wrongShare = seed == 12 ? 0.05 : 0.0, .known = false});
+      const auto found = measurePhotographed(made.plant.views, made.plant.hints, made.photos, made.plant.nodes, {.stems = made.plant.stems});
+      ASSERT_TRUE(found) << found.error().message;
+      const Fit fit = fitted(made.plant, found->snapping.nodes);
+      std::printf("%s: node error %.3f %% (median), %.3f %% (p95), size off by %.2f %%, said +-%.2f %%\n", made.plant.name.c_str(), at(fit.off, 0.5), at(fit.off, 0.95), 100 * (1 / fit.scale - 1),
+                  100 * found->cameras.uncertainty.scaleShare);
+      EXPECT_LT(at(fit.off, 0.5), 0.4);
+      EXPECT_LT(at(fit.off, 0.95), 1.2);
+      EXPECT_NEAR(fit.scale, 1, 0.01);
+      EXPECT_LT(found->cameras.uncertainty.scaleShare, 0.01);
+    }
+}
+
+TEST(Photographed, LinesFindCamerasBetterThanClicks) {
+  AXIL_SKIP_WITHOUT_SHARED("data/plants/cases");
+  const auto made = photographsOf(test::plantCaseFolders()[0], "clutter", {.cameras = "handheld", .noise_px = 3, .seed = 13, .every = 6, .known = false});
+  const auto byClicks = estimateCameras(made.plant.views, made.plant.hints, made.plant.nodes);
+  const auto byLines = measurePhotographed(made.plant.views, made.plant.hints, made.photos, made.plant.nodes, {.stems = made.plant.stems});
+  ASSERT_TRUE(byClicks && byLines);
+  const auto clicked = placeSnapped(byClicks->views, made.plant.nodes, byLines->snapping.readings, 3);
+  ASSERT_TRUE(clicked);
+  EXPECT_LT(at(fitted(made.plant, byLines->snapping.nodes).off, 0.5), at(fitted(made.plant, *clicked).off, 0.5));
+}
+
+TEST(Photographed, AWrongClickInKnownCamerasIsNamedAndLeftOut) {
+  AXIL_SKIP_WITHOUT_SHARED("data/plants/cases");
+  auto made = photographsOf(test::plantCaseFolders()[0], "plain", {.cameras = "persp", .noise_px = 1, .seed = 14, .every = 6});
+  ClickedNode& wrong = made.plant.nodes[5];
+  const glm::dvec3 truth = made.plant.truth[5].at;
+  wrong.clicks.at("right").px += glm::dvec2{60, -35};
+  const auto found = measurePhotographed(made.plant.views, {}, made.photos, made.plant.nodes, {.stems = made.plant.stems});
+  ASSERT_TRUE(found) << found.error().message;
+  ASSERT_FALSE(found->cameras.suspects.empty());
+  EXPECT_EQ(found->cameras.suspects.front().node, wrong.id);
+  EXPECT_EQ(found->cameras.suspects.front().view, "right");
+  for (const SnappedNode& node : found->snapping.nodes) {
+    if (node.id != wrong.id) continue;
+    EXPECT_LT(glm::length(node.at.at - truth), 0.005 * made.plant.height_m);
+  }
+}
+
+}  // namespace
+}  // namespace axil::skeleton3d
