@@ -263,7 +263,7 @@ std::size_t ParagraphReader::readCountGoingOn(std::size_t i, const NumberRange& 
   bool qualified = false;
   std::size_t before = i;
   while (before > lastCount_.end) {
-    const bool frequency = isOneOf(qualifierOf(tokens_[before - 1].text), {"rarely", "sometimes", "usually"}) || isAny(before - 1, {"通", "極", "极", "有", "occasionally"});
+    const bool frequency = isOneOf(qualifierOf(tokens_[before - 1].text), {"rarely", "sometimes", "usually"}) || isAny(before - 1, {"通", "極", "极", "有", "間", "间", "occasionally"});
     if (!frequency && !isAny(before - 1, {",", "、", "or", "或", "(", "但", "but", "very", "more", "less", "為", "为", "枚", "片", "朵", "個", "个", "條", "条", "對", "对", "pairs"})) return 0;
     qualified = qualified || frequency || isAny(before - 1, {"or", "或"});
     --before;
@@ -370,7 +370,7 @@ std::size_t ParagraphReader::readCountOfOrganAfter(std::size_t i, const NumberRa
   const Measure measure = measureAt(range.end);
   std::size_t at = measure.end;
   if (isAny(at, {"的"})) ++at;
-  const auto isAdjective = [&](std::size_t k) { return k < tokens_.size() && hasTraitMeaning(k) && nounAt(k) == nullptr && (!isHan(k) || isAny(found_[k].end, {"的", "之"})); };
+  const auto isAdjective = [&](std::size_t k) { return k < tokens_.size() && (hasTraitMeaning(k) || (!isHan(k) && found_[k].conceptAs("which") != nullptr)) && nounAt(k) == nullptr && (!isHan(k) || isAny(found_[k].end, {"的", "之"})); };
   while (isAdjective(at) && at < measure.end + 3) at = found_[at].end;  // "5 white petals"
   if (at > measure.end && isAny(at, {"的", "之"})) ++at;
   const bool with = i > 0 && isAny(i - 1, {"with", "having", "bearing"});

@@ -104,7 +104,7 @@ void ParagraphReader::weighForeign(const Found& f) {
 bool ParagraphReader::isKnown(std::size_t i) const {
   const Token& token = tokens_[i];
   if (token.kind == TokenKind::Number || token.kind == TokenKind::Sign) return true;
-  if (isFiller(token.text) || countedBy(i).end != 0 || isAny(i, {"merous", "above", "below", "long", "diverging", "divergence", "diverge", "palmately", "pinnately", "digitately", "node", "nodes", "small", "large", "medium", "tall", "slender", "夾", "夹", "角"}) || !qualifierOf(token.text).empty() || negates(token.text) || numberAt(tokens_, i)) return true;
+  if (isFiller(token.text) || countedBy(i).end != 0 || isAny(i, {"merous", "absent", "present", "minute", "row", "rows", "series", "ranks", "equal", "unequal", "free", "distinct", "thin", "thick", "ones", "minutely", "above", "below", "long", "diverging", "divergence", "diverge", "palmately", "pinnately", "digitately", "node", "nodes", "small", "large", "medium", "tall", "slender", "夾", "夹", "角"}) || !qualifierOf(token.text).empty() || negates(token.text) || numberAt(tokens_, i)) return true;
   return false;
 }
 

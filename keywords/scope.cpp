@@ -80,6 +80,8 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
                                       "current", "previous", "year", "second", "adult", "subtending", "ultimate", "leafy", "terminal", "main", "mature", "same", "opposite"}))
     --before;
   if (isHan(i) && isAny(before, {"每", "各"})) return scope_.organInSentence;
+  const std::size_t behind = found_[i].end;  // 莖下部者3-4枚輪生: which of the leaves
+  if (isHan(i) && isAny(behind, {"上", "下", "中", "基", "頂", "顶"}) && is(behind + 1, "部") && is(behind + 2, "者")) return scope_.organInSentence;
   const bool tipOf = isHan(i) && last_.end == i && last_.kept && isAny(found_[i].end, {"端", "頂", "顶", "梢"});  // 單生莖端
   if (tipOf) return scope_.organInSentence;
   std::size_t behindTerms = before;  // "on a pendulous stalk"
@@ -277,6 +279,14 @@ void ParagraphReader::notePlace(std::size_t i, const Concept& place) {
 // 下部互生，上部對生: without an organ behind it the word holds until the next of its kind.
 void ParagraphReader::noteWhich(std::size_t i) {
   const std::size_t end = found_[i].end;
+  // "lower ones to 20 cm", 莖上部者互生.
+  if (scope_.organInSentence && isAny(end, {"ones", "者"})) {
+    scope_.which = found_[i].conceptAs("which")->name;
+    scope_.place = nullptr;
+    scope_.organEnd = end + 1;
+    scope_.subjectInClause = scope_.subjectInSegment = true;
+    return;
+  }
   const bool opensSegment = i == 0 || isAny(i - 1, {",", ";", "、", "；"}) || (scope_.organ != nullptr && scope_.organEnd == i);
   if (!opensSegment || !isHan(i) || nounAt(end) != nullptr || !scope_.organInSentence) return;
   scope_.which = found_[i].conceptAs("which")->name;
