@@ -274,6 +274,7 @@ std::size_t ParagraphReader::readCountGoingOn(std::size_t i, const NumberRange& 
   if (next != nullptr && next->name != lastCount_.organ && isCountable(*next)) return 0;
   const LastCount last = lastCount_;
   addCount(i, measure.end, last.organ, last.piece, range, measure.unit.empty() ? last.unit : measure.unit);
+  if (std::string& qualifier = result_.traits.back().qualifier; qualifier.empty()) qualifier = "sometimes";  // 間有十三枚
   return measure.end;
 }
 
