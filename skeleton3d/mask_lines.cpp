@@ -6,8 +6,28 @@
 namespace axil::skeleton3d::detail {
 namespace {
 
-/// One of the two passes of Zhang and Suen's thinning over `left`, the pixels that are still there; whether any was taken away.
-bool thinOnce(cv::Mat& m, std::vector<cv::Point>& left, bool second) {
+template <class Visit>
+void forAround(cv::Point p, const Visit& visit) {
+  for (int y = p.y - 1; y <= p.y + 1; ++y)
+    for (int x = p.x - 1; x <= p.x + 1; ++x) visit(cv::Point(x, y));
+}
+
+/// The plant's pixels (1) that touch the background; they become 2 in `known`.
+std::vector<cv::Point> borderOf(const cv::Mat& m, cv::Mat& known) {
+  std::vector<cv::Point> border;
+  for (int y = 1; y + 1 < m.rows; ++y)
+    for (int x = 1; x + 1 < m.cols; ++x) {
+      if (m.at<std::uint8_t>(y, x) == 0) continue;
+      bool touches = false;
+      forAround({x, y}, [&](cv::Point n) { touches = touches || m.at<std::uint8_t>(n) == 0; });
+      if (touches) border.push_back({x, y}), known.at<std::uint8_t>(y, x) = 2;
+    }
+  return border;
+}
+
+/// One of the two passes of Zhang and Suen's thinning over `left`, the pixels that touch the background (no other can go), which
+/// then grows by those laid bare; whether any was taken away.
+bool thinOnce(cv::Mat& m, std::vector<cv::Point>& left, cv::Mat& known, bool second) {
   std::vector<cv::Point> gone, stay;
   for (const cv::Point& place : left) {
     const int x = place.x, y = place.y;
@@ -26,6 +46,12 @@ bool thinOnce(cv::Mat& m, std::vector<cv::Point>& left, bool second) {
   }
   for (const cv::Point& g : gone) m.at<std::uint8_t>(g) = 0;
   left = std::move(stay);
+  for (const cv::Point& g : gone)
+    forAround(g, [&](cv::Point n) {
+      if (m.at<std::uint8_t>(n) == 0 || known.at<std::uint8_t>(n) == 2) return;
+      known.at<std::uint8_t>(n) = 2;
+      left.push_back(n);
+    });
   return !gone.empty();
 }
 
@@ -49,10 +75,10 @@ MaskLines linesOf(const Mask& mask) {
   cv::distanceTransform(1 - plant, toPlant, cv::DIST_L2, cv::DIST_MASK_5);
   cv::distanceTransform(plant, inside, cv::DIST_L2, cv::DIST_MASK_5);
   thin.row(0).setTo(0), thin.row(thin.rows - 1).setTo(0), thin.col(0).setTo(0), thin.col(thin.cols - 1).setTo(0);
-  std::vector<cv::Point> left;
-  cv::findNonZero(thin, left);
+  cv::Mat known = cv::Mat::zeros(thin.size(), CV_8UC1);
+  std::vector<cv::Point> left = borderOf(thin, known);
   for (bool more = true; more;) {
-    const bool first = thinOnce(thin, left, false), second = thinOnce(thin, left, true);
+    const bool first = thinOnce(thin, left, known, false), second = thinOnce(thin, left, known, true);
     more = first || second;
   }
   cv::distanceTransform(1 - thin, toLine, labels, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
