@@ -233,6 +233,9 @@ Result<Engine::Outcome> Engine::step(StepTrace* trace) {
   s.spare.clear();
   const auto fired = s.plain && trace == nullptr ? s.plainStep() : s.generalStep(trace);
   if (!fired) return fired.failure();
+  // Room that a growth promised which then did not come.
+  if (!s.inPlace) s.spare.trim();
+  for (Lane& lane : s.lanes) lane.own.trim();
   s.notePeak(0);
   if (held(s) > s.options.limits.bytes) return s.tooMany("bytes", s.options.limits.bytes, nullptr);
   const bool still = s.timeless && !s.drawsConditions && (*fired == 0 || (!s.inPlace && !s.drawsResults && sameArrays(s.string, s.spare)));

@@ -28,6 +28,11 @@ struct Arrays {
     parameters.clear();
     identities.clear();
   }
+  void trim() {
+    codes.trim();
+    parameters.trim();
+    identities.trim();
+  }
   [[nodiscard]] std::size_t bytes() const { return codes.bytes() + parameters.bytes() + identities.bytes(); }
   /// Of what is filled.
   [[nodiscard]] std::size_t used() const {

@@ -68,6 +68,14 @@ class Buffer {
     const std::size_t more = capacity_ + capacity_ / 4;
     if (count > capacity_ || data_ == nullptr) reserve(count > more ? count : more);
   }
+  /// Gives room back where more than an eighth of what is filled is left over.
+  void trim() {
+    if (data_ == nullptr || capacity_ - size_ <= size_ / 8 + slack) return;
+    if (void* const smaller = std::realloc(data_, (size_ + slack) * sizeof(T))) {
+      data_ = static_cast<T*>(smaller);
+      capacity_ = size_;
+    }
+  }
   /// Says how many elements are filled; their values are whatever was written there.
   void setSize(std::size_t size) {
     reserve(size);
