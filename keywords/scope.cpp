@@ -255,6 +255,9 @@ void ParagraphReader::notePiece(std::size_t i, const Concept& piece) {
 }
 
 void ParagraphReader::notePlace(std::size_t i, const Concept& place) {
+  // 草本，基部分枝: where the plant branches.
+  const bool ofPlant = scope_.organ != nullptr && isOneOf(scope_.organ->name, {"plant", "stem"});
+  if (ofPlant && is(found_[i].end, "分") && is(found_[i].end + 1, "枝")) return;
   // "cordate at base" has taken its place along; "at base cordate" opens one.
   if (isPlaceOfTermBefore(i)) {
     scope_.commaSincePlace = true;
