@@ -8,7 +8,7 @@
 namespace axil::skeleton3d {
 namespace {
 
-constexpr double kMostPixels = 0.5e6;  ///< that grabCut looks at; what it learns of the colours is then applied to all
+constexpr double kMostPixels = 0.1e6;  ///< that grabCut looks at; what it learns of the colours is then applied to all
 constexpr int kRounds = 4, kBins = 16;
 
 /// Shares of the plant's and the background's pixels, by colour.

@@ -9,9 +9,11 @@ namespace {
 
 constexpr std::size_t kMostReady = 3;
 /// A way with less is no stem.
-constexpr double kLeastConfidence = 0.3;
+constexpr double kLeastConfidence = 0.4;
 /// How far the line through the nodes may be from the stem, of the photo's longer side: few nodes count more than the last pixel.
 constexpr double kTolerance = 0.0025;
+/// ... and of the straight way: a step from node to node is no bent stem.
+constexpr double kToleranceOfWay = 0.04;
 
 /// Photos made ready, the last used first.
 class Prepare {
@@ -94,7 +96,8 @@ void Wires::update(const document::OpenProject& open, const UiState& state, cons
 
 std::optional<skeleton3d::WirePath> Wires::way(const std::shared_ptr<const skeleton3d::Photo>& photo, PhotoPoint from, PhotoPoint to) const {
   if (!answer_ || answer_->question.photo != photo || answer_->question.from != from) return std::nullopt;
-  skeleton3d::WirePath path = skeleton3d::wireTo(*answer_->start, to, {.tolerance_px = std::max(1.5, kTolerance * std::max(photo->width, photo->height))});
+  const double tolerance_px = std::max({1.5, kTolerance * std::max(photo->width, photo->height), kToleranceOfWay * glm::distance(from.px, to.px)});
+  skeleton3d::WirePath path = skeleton3d::wireTo(*answer_->start, to, {.tolerance_px = tolerance_px});
   if (path.confidence < kLeastConfidence || path.nodes.size() < 2) return std::nullopt;
   return path;
 }

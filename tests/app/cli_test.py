@@ -184,7 +184,10 @@ class Projects(Case):
 
     def test_rays_that_do_not_meet(self):
         def change(p): p["nodes"][4]["clicks"]["front"][1] += 400
-        self.refuse(change, f"node {self.project['nodes'][4]['id']}", "px")
+        status, _, err = axil("skeleton", self.changed(change))
+        self.assertEqual(status, 0, err)
+        self.assertIn(f"suspect click: node {self.project['nodes'][4]['id']} in view front", err)
+        self.assertEqual(err.count("suspect click"), 1, err)  # the two others agree and stay
 
     def test_unknown_node(self):
         self.refuse(lambda p: p["stems"][1]["nodes"].append(9999), "9999")

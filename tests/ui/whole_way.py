@@ -96,6 +96,7 @@ def choose_photo(hand, row, path):
 
 def click_stems(hand, project, size):
     """Every stem in the front photo first, then its nodes in the other two."""
+    hand.key("w")  # node by node: stems are not followed to the mouse
     clicks = {node["id"]: node["clicks"] for node in project["nodes"]}
     at = lambda node, view: on_screen(clicks[node][view], size)
     for index, stem in enumerate(project["stems"]):
