@@ -104,7 +104,7 @@ void ParagraphReader::weighForeign(const Found& f) {
 bool ParagraphReader::isKnown(std::size_t i) const {
   const Token& token = tokens_[i];
   if (token.kind == TokenKind::Number || token.kind == TokenKind::Sign) return true;
-  if (isFiller(token.text) || countedBy(i).end != 0 || isAny(i, {"merous", "absent", "present", "minute", "row", "rows", "series", "ranks", "equal", "unequal", "free", "distinct", "thin", "thick", "ones", "minutely", "above", "below", "long", "diverging", "divergence", "diverge", "palmately", "pinnately", "digitately", "node", "nodes", "small", "large", "medium", "tall", "slender", "夾", "夹", "角"}) || !qualifierOf(token.text).empty() || negates(token.text) || numberAt(tokens_, i)) return true;
+  if (isFiller(token.text) || countedBy(i).end != 0 || isAny(i, {"merous", "absent", "present", "minute", "row", "rows", "series", "ranks", "equal", "unequal", "free", "distinct", "thin", "thick", "ones", "minutely", "above", "below", "long", "diverging", "divergence", "diverge", "angle", "angles", "palmately", "pinnately", "digitately", "node", "nodes", "small", "large", "medium", "tall", "slender", "夾", "夹", "角"}) || !qualifierOf(token.text).empty() || negates(token.text) || numberAt(tokens_, i)) return true;
   return false;
 }
 
@@ -143,8 +143,19 @@ ParagraphReader::Stretch ParagraphReader::tellingClauses() const {
 
 double ParagraphReader::knownShare() const { return knownShare({{0, tokens_.size()}}); }
 
+// The words that stand in what was read: "80-90 degrees" too.
+std::vector<bool> ParagraphReader::tokensOfTraits() const {
+  std::vector<bool> inside(tokens_.size(), false);
+  for (const Trait& trait : result_.traits) {
+    const auto first = std::lower_bound(tokens_.begin(), tokens_.end(), trait.span.begin, [](const Token& token, std::uint32_t begin) { return token.begin < begin; });
+    for (auto token = first; token != tokens_.end() && token->begin < trait.span.end; ++token) inside[static_cast<std::size_t>(token - tokens_.begin())] = true;
+  }
+  return inside;
+}
+
 // How many of the words there the reader knows: vocabulary, numbers, little words.
 double ParagraphReader::knownShare(const std::vector<Stretch>& stretches) const {
+  const std::vector<bool> inTraits = tokensOfTraits();
   double known = 0;
   double all = 0;
   for (const Stretch& stretch : stretches) {
@@ -157,7 +168,7 @@ double ParagraphReader::knownShare(const std::vector<Stretch>& stretches) const 
       const bool phrase = found_[i] && found_[i].conceptAs("foreign") == nullptr && (stop == nullptr || stop->name == "place");
       const std::size_t end = found_[i] ? found_[i].end : i + 1;
       all += static_cast<double>(end - i);
-      if (phrase || (!found_[i] && isKnown(i))) known += static_cast<double>(end - i);
+      if (phrase || (!found_[i] && (inTraits[i] || isKnown(i)))) known += static_cast<double>(end - i);
       i = end;
     }
   }

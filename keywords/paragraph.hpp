@@ -192,6 +192,7 @@ class ParagraphReader {
   [[nodiscard]] bool isUse(std::size_t i) const;
   [[nodiscard]] bool isAboutAPlant() const;
   [[nodiscard]] bool isKnown(std::size_t i) const;
+  [[nodiscard]] std::vector<bool> tokensOfTraits() const;
   [[nodiscard]] double knownShare() const;
   [[nodiscard]] double knownShare(const std::vector<Stretch>& stretches) const;
   void findUnknown();

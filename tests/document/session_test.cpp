@@ -1,3 +1,4 @@
+#include "document/lookup.hpp"
 #include "document/session.hpp"
 
 #include "base/files.hpp"
@@ -280,7 +281,11 @@ TEST_F(SessionTest, TheLastGoodPlantStaysWhileThePresentOneIsInTrouble) {
   EXPECT_TRUE(session.skeleton().isCurrent()) << "a node of one view waits and troubles nobody";
   const auto good = session.skeleton().good;
   const auto text = session.grammarText(GrammarKind::Initial).good;
-  line(session, "add_click 500 right 2000 5900");
+  // Then it lies on the tip of a stem that it lengthens: a segment of no length.
+  const auto& stem = session.project().stems.back().stem;
+  const auto clicks = session.project().nodes[nodeWithId(session.project(), stem.nodes.back()).value()].node.clicks;
+  const auto at = [&](const char* view) { return std::string(view) + " " + std::to_string(clicks.at(view).px.x) + " " + std::to_string(clicks.at(view).px.y); };
+  line(session, "move_click 500 " + at("front") + " ; add_click 500 " + at("right") + " ; append_node " + std::to_string(stem.id.value) + " 500");
   const auto& shown = session.skeleton();
   ASSERT_TRUE(shown.trouble);
   EXPECT_NE(shown.trouble->message.find("500"), std::string::npos) << shown.trouble->message;
