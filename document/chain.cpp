@@ -1,6 +1,7 @@
 #include "document/chain.hpp"
 
 #include "document/traits.hpp"
+#include "keywords/models.hpp"
 
 #include <algorithm>
 #include <map>
@@ -148,6 +149,8 @@ emit::EmitOptions emitOptionsOf(const Project& project, const ChainOptions& opti
   emitOptions.name = project.name;
   emitOptions.decimals = options.decimals;
   emitOptions.turning = options.turning;
+  if (const auto traits = traitsOf(project); traits && !traits->empty())
+    if (const auto colours = keywords::leafColours(*traits); !colours.empty()) emitOptions.leafColour = colours.front();
   return emitOptions;
 }
 

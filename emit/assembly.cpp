@@ -181,7 +181,7 @@ Stage leafStage(Grammar& grammar, int number, const LeafStage& leaf, const Digit
   stage.attributes.push_back(b.attribute("GrowRate", b.number(leaf.length, digits.length)));
   stage.attributes.push_back(b.attribute("GrowTime", b.printed(1, kPlain)));
   if (leaf.width > 0) stage.attributes.push_back(b.attribute("BroadenRate", b.number(leaf.width / 2 / simeco::modelRadius, digits.length)));
-  stage.attributes.push_back(colour(grammar, kLeafColour));
+  stage.attributes.push_back(colour(grammar, options.leafColour ? glm::dvec4(*options.leafColour, 1) : kLeafColour));
   return stage;
 }
 

@@ -15,6 +15,9 @@
 #include "quantify/types.hpp"
 #include "simeco/grammar.hpp"
 
+#include <glm/vec3.hpp>
+
+#include <optional>
 #include <string>
 
 namespace axil::emit {
@@ -27,6 +30,7 @@ struct EmitOptions {
   std::string stemModel = "DefaultStem.i";
   std::string stemTexture = {};  ///< empty: none is named
   std::string leafTexture = {};
+  std::optional<glm::dvec3> leafColour = {};  ///< sRGB, of all leaves; nothing: a middle green
 };
 
 /// The grammar that regrows `measurements`. Where no radius was measured, one is made up and said so in the grammar's comment: a

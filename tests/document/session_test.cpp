@@ -275,6 +275,18 @@ TEST_F(SessionTest, DerivedValuesAreMadeOnceForTheSameInputs) {
   EXPECT_EQ(*session.grammarText(GrammarKind::Initial).good, *before);
 }
 
+TEST_F(SessionTest, LeavesHaveTheColourThatTheDescriptionSays) {
+  Session session = opened();
+  line(session, "add_leaves 1 nodes=3");
+  const auto green = session.grammarText(GrammarKind::Initial).good;
+  line(session, "set_description \"Shrub. Leaves opposite, ovate, dark purple.\"");
+  const auto purple = session.grammarText(GrammarKind::Initial).good;
+  ASSERT_TRUE(green && purple);
+  EXPECT_NE(*green, *purple);
+  EXPECT_NE(green->find("RGBA(0.220000, 0.500000, 0.160000, 1.000000)"), std::string::npos);
+  EXPECT_EQ(purple->find("RGBA(0.220000, 0.500000, 0.160000, 1.000000)"), std::string::npos);
+}
+
 TEST_F(SessionTest, TheLastGoodPlantStaysWhileThePresentOneIsInTrouble) {
   Session session = opened();
   line(session, "add_node 500 front 5 5");
