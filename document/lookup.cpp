@@ -41,6 +41,14 @@ std::optional<std::size_t> stemWithId(const Project& project, StemId id) {
   return firstWhere(project.stems, [&](const ProjectStem& stem) { return stem.stem.id == id; });
 }
 
+const PhotoPoint* clickOf(const Project& project, NodeId node, const std::string& view) {
+  const auto place = nodeWithId(project, node);
+  if (!place) return nullptr;
+  const auto& clicks = project.nodes[*place].node.clicks;
+  const auto click = clicks.find(view);
+  return click == clicks.end() ? nullptr : &click->second;
+}
+
 NodeId nextNodeId(const Project& project) {
   return oneAbove<NodeId>(project.nodes, [](const ProjectNode& node) { return node.node.id; });
 }

@@ -5,6 +5,7 @@
 #include "document/project.hpp"
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace axil::document {
 [[nodiscard]] std::optional<std::size_t> viewNamed(const Project& project, std::string_view name);
 [[nodiscard]] std::optional<std::size_t> nodeWithId(const Project& project, skeleton3d::NodeId id);
 [[nodiscard]] std::optional<std::size_t> stemWithId(const Project& project, skeleton3d::StemId id);
+
+/// Where the node is clicked in the view; null where it is not, or there is no such node. Points into `project`.
+[[nodiscard]] const PhotoPoint* clickOf(const Project& project, skeleton3d::NodeId node, const std::string& view);
 
 /// One above the largest, 1 for none; an invalid id where the numbers are used up.
 [[nodiscard]] skeleton3d::NodeId nextNodeId(const Project& project);

@@ -13,6 +13,7 @@
 #include "render/gallery.hpp"     // contact sheets of shapes
 #include "render/types.hpp"           // PlantMesh, Material, Image: the nouns
 #include "render/plant_mesh.hpp"      // simeco::Plant -> PlantMesh
+#include "render/highlight.hpp"       // some organs in another colour
 #include "render/picture.hpp"         // PlantMesh -> Image, PNG
 #include "render/animation.hpp"       // growth -> folder of PNGs, mp4, webm
 #include "render/mesh_files.hpp"      // PlantMesh -> glb, obj, ply

@@ -31,5 +31,6 @@
 #include "skeleton3d/width.hpp"     // widths to radii, tapers
 #include "skeleton3d/draft.hpp"     // masks to a draft of all stems
 #include "skeleton3d/solve.hpp"     // clicks to nodes
+#include "skeleton3d/doubts.hpp"    // clicks and segments to look at again
 #include "skeleton3d/tree.hpp"      // nodes and stems to one checked tree
 #include "skeleton3d/report.hpp"    // what a person wants to see of it

@@ -13,13 +13,9 @@ using document::Project;
 using document::StemId;
 using document::Step;
 
-const skeleton3d::ClickedNode& nodeOf(const Project& project, std::size_t place) { return project.nodes[place].node; }
 const skeleton3d::ClickedStem& stemAt(const Project& project, std::size_t place) { return project.stems[place].stem; }
 
-bool hasClick(const Project& project, NodeId id, const std::string& view) {
-  const auto place = document::nodeWithId(project, id);
-  return place && nodeOf(project, *place).clicks.contains(view);
-}
+bool hasClick(const Project& project, NodeId id, const std::string& view) { return document::clickOf(project, id, view) != nullptr; }
 
 /// The stem that a new node beyond `node` would lengthen: one that ends at it, or one just begun there.
 std::optional<StemId> growingStem(const Project& project, NodeId node) {

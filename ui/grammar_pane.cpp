@@ -277,4 +277,20 @@ Taken grammarText(const Panel& panel, Area area) {
   return taken;
 }
 
+Taken grammarPanel(const Panel& panel) {
+  heading(panel, "way_grammar");
+  static constexpr std::array<const char*, 3> kKinds = {"kind_initial", "kind_predictive", "kind_structured"};
+  static constexpr std::array<const char*, 3> kHelp = {"kind_initial_help", "kind_predictive_help", "kind_structured_help"};
+  for (std::size_t i = 0; i < 3; ++i)
+    if (choice(panel, kKinds[i], panel.state.kind == static_cast<document::GrammarKind>(i), -1)) panel.state.kind = static_cast<document::GrammarKind>(i);
+  const std::size_t kind = static_cast<std::size_t>(panel.state.kind);
+  gap(panel, 4);
+  quiet(panel, panel.t(kHelp[kind]));
+  gap(panel, 4);
+  ImGui::SetNextItemWidth(-1);
+  ImGui::InputTextWithHint("##find", panel.t("find"), &panel.state.find);
+  if (panel.following.grammarTroubles[kind]) say(panel, NoticeKind::Warned, panel.following.grammarTroubles[kind]->message);
+  return std::nullopt;
+}
+
 }  // namespace axil::ui

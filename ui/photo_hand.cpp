@@ -78,11 +78,8 @@ bool seesFromElsewhere(const Pane& pane) {
 std::optional<skeleton3d::WirePath> wireTo(const Pane& pane, const ClickMeaning& meaning, PhotoPoint at) {
   const bool grows = meaning.kind == ClickKind::Extend || meaning.kind == ClickKind::Branch;
   if (!grows || !pane.state().trace || !seesFromElsewhere(pane) || !meaning.node || pane.photo == nullptr || !pane.photo->tiles) return std::nullopt;
-  const auto place = document::nodeWithId(pane.panel.project, *meaning.node);
-  if (!place) return std::nullopt;
-  const auto& clicks = pane.panel.project.nodes[*place].node.clicks;
-  const auto from = clicks.find(pane.name());
-  return from == clicks.end() ? std::nullopt : pane.panel.wires.way(pane.photo->tiles->sharedPhoto(), from->second, at);
+  const PhotoPoint* from = document::clickOf(pane.panel.project, *meaning.node, pane.name());
+  return from == nullptr ? std::nullopt : pane.panel.wires.way(pane.photo->tiles->sharedPhoto(), *from, at);
 }
 
 /// The places of the new nodes: the way begins at one that is there.

@@ -277,9 +277,9 @@ void drawDoubts(const Pane& pane) {
   const Following& following = pane.panel.following;
   const Colour ink = pane.panel.palette.warning;
   const auto mark = [&](NodeId node, double off_px) {
-    const auto place = document::nodeWithId(pane.panel.project, node);
-    if (!place || !pane.panel.project.nodes[*place].node.clicks.contains(pane.name())) return;
-    const ImVec2 click = pane.lens.onScreen(pane.panel.project.nodes[*place].node.clicks.at(pane.name()));
+    const PhotoPoint* clicked = document::clickOf(pane.panel.project, node, pane.name());
+    if (clicked == nullptr) return;
+    const ImVec2 click = pane.lens.onScreen(*clicked);
     const skeleton3d::Node* solved = solvedNode(pane.panel, node);
     const skeleton3d::Camera* camera = cameraOf(pane.panel, pane.name());
     if (solved != nullptr && camera != nullptr && skeleton3d::isInFront(*camera, solved->position))

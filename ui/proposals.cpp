@@ -18,20 +18,14 @@ constexpr double kTaken_px = 5, kTakenShare = 0.5;
 /// Tips of two photos' proposals are one place when they are no further apart than this share of the plant's reach.
 constexpr double kApartOfReach = 0.06;
 
-const std::map<std::string, PhotoPoint>& clicksOf(const Project& project, NodeId node) {
-  static const std::map<std::string, PhotoPoint> none;
-  const auto place = document::nodeWithId(project, node);
-  return place ? project.nodes[*place].node.clicks : none;
-}
-
 /// The nodes of the tip's stem from the last that is clicked in `view` up to the tip; empty where there is no such node before it.
 std::vector<NodeId> openEnd(const Project& project, NodeId tip, const std::string& view) {
   const auto stem = document::stemThrough(project, tip);
-  if (!stem || clicksOf(project, tip).contains(view)) return {};
+  if (!stem || document::clickOf(project, tip, view) != nullptr) return {};
   const auto& nodes = project.stems[*stem].stem.nodes;
   const auto end = std::find(nodes.begin(), nodes.end(), tip);
   for (auto from = end; from != nodes.begin();)
-    if (clicksOf(project, *--from).contains(view)) return {from, end + 1};
+    if (document::clickOf(project, *--from, view) != nullptr) return {from, end + 1};
   return {};
 }
 
@@ -40,7 +34,7 @@ const skeleton3d::View* commonView(const Project& project, const Placed& placed,
   for (const document::ProjectView& candidate : project.views) {
     const std::string& name = candidate.view.name;
     if (name == view) continue;
-    const bool inAll = std::all_of(nodes.begin(), nodes.end(), [&](NodeId node) { return clicksOf(project, node).contains(name); });
+    const bool inAll = std::all_of(nodes.begin(), nodes.end(), [&](NodeId node) { return document::clickOf(project, node, name) != nullptr; });
     if (const skeleton3d::View* known = inAll ? placed.view(name) : nullptr) return known;
   }
   return nullptr;
@@ -84,8 +78,8 @@ std::vector<std::pair<PhotoPoint, PhotoPoint>> segmentsIn(const Project& project
   std::vector<std::pair<PhotoPoint, PhotoPoint>> segments;
   for (const document::ProjectStem& entry : project.stems)
     for (std::size_t i = 1; i < entry.stem.nodes.size(); ++i) {
-      const auto &a = clicksOf(project, entry.stem.nodes[i - 1]), &b = clicksOf(project, entry.stem.nodes[i]);
-      if (a.contains(view) && b.contains(view)) segments.emplace_back(a.at(view), b.at(view));
+      const PhotoPoint *a = document::clickOf(project, entry.stem.nodes[i - 1], view), *b = document::clickOf(project, entry.stem.nodes[i], view);
+      if (a != nullptr && b != nullptr) segments.emplace_back(*a, *b);
     }
   return segments;
 }
@@ -117,8 +111,8 @@ std::optional<StemQuestion> stemQuestion(const Project& project, const Placed& p
   const skeleton3d::View* first = nodes.size() < 2 || other == nullptr ? nullptr : commonView(project, placed, nodes, view);
   if (first == nullptr) return std::nullopt;
   StemQuestion question{*first, *other, {}, otherPhoto, placed.reach(), {}, segmentsIn(project, view)};
-  for (const NodeId node : nodes) question.nodes.emplace_back(node, clicksOf(project, node).at(first->name));
-  question.options.startInOther = clicksOf(project, nodes.front()).at(view);
+  for (const NodeId node : nodes) question.nodes.emplace_back(node, *document::clickOf(project, node, first->name));
+  question.options.startInOther = *document::clickOf(project, nodes.front(), view);
   if (const skeleton3d::Node* base = placed.node(nodes.front())) question.options.base = base->position;
   return question;
 }

@@ -17,14 +17,6 @@ const skeleton3d::ClickedStem* stemWith(const Project& project, std::optional<St
   return place ? &project.stems[*place].stem : nullptr;
 }
 
-const PhotoPoint* clickOf(const Project& project, NodeId id, const std::string& view) {
-  const auto place = document::nodeWithId(project, id);
-  if (!place) return nullptr;
-  const auto& clicks = project.nodes[*place].node.clicks;
-  const auto click = clicks.find(view);
-  return click == clicks.end() ? nullptr : &click->second;
-}
-
 double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
   const glm::dvec2 along = b - a;
   const double length2 = glm::dot(along, along);
@@ -63,8 +55,8 @@ std::optional<PlaceOnStem> placeOnStem(const Project& project, const PhotoClick&
   std::optional<PlaceOnStem> nearest;
   for (const auto& entry : project.stems)
     for (std::size_t i = 1; i < entry.stem.nodes.size(); ++i) {
-      const PhotoPoint* a = clickOf(project, entry.stem.nodes[i - 1], click.view);
-      const PhotoPoint* b = clickOf(project, entry.stem.nodes[i], click.view);
+      const PhotoPoint* a = document::clickOf(project, entry.stem.nodes[i - 1], click.view);
+      const PhotoPoint* b = document::clickOf(project, entry.stem.nodes[i], click.view);
       if (a == nullptr || b == nullptr) continue;
       const double distance = distanceToSegment(click.at.px, a->px, b->px);
       if (distance > click.reach_px || (nearest && distance >= nearest->distance_px)) continue;

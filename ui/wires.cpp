@@ -45,24 +45,16 @@ class Prepare {
   std::vector<std::pair<std::shared_ptr<const skeleton3d::Photo>, skeleton3d::LiveWire>> kept_;
 };
 
-const PhotoPoint* clickOf(const document::Project& project, document::NodeId node, const std::string& view) {
-  const auto place = document::nodeWithId(project, node);
-  if (!place) return nullptr;
-  const auto& clicks = project.nodes[*place].node.clicks;
-  const auto click = clicks.find(view);
-  return click == clicks.end() ? nullptr : &click->second;
-}
-
 }  // namespace
 
 std::optional<document::NodeId> wireNode(const document::Project& project, const Selection& selection, const std::string& view) {
   if (!selection.node) return std::nullopt;
-  if (clickOf(project, *selection.node, view) != nullptr) return selection.node;
+  if (document::clickOf(project, *selection.node, view) != nullptr) return selection.node;
   const auto stem = document::stemThrough(project, *selection.node);
   if (!stem) return std::nullopt;
   const auto& nodes = project.stems[*stem].stem.nodes;
   for (auto node = std::find(nodes.rbegin(), nodes.rend(), *selection.node); node != nodes.rend(); ++node)
-    if (clickOf(project, *node, view) != nullptr) return *node;
+    if (document::clickOf(project, *node, view) != nullptr) return *node;
   return std::nullopt;
 }
 
@@ -86,7 +78,7 @@ void Wires::update(const document::OpenProject& open, const UiState& state, cons
     const auto node = at ? wireNode(open.project, state.selection, state.hover->first) : std::nullopt;
     const auto photo = at ? photos.photoOf(open, open.project.views[*at]) : nullptr;
     if (photo && node) {
-      const PhotoPoint from = *clickOf(open.project, *node, state.hover->first);
+      const PhotoPoint from = *document::clickOf(open.project, *node, state.hover->first);
       if (!answer_ || answer_->question.photo != photo || answer_->question.from != from) return ask({photo, from});
     }
   }
