@@ -1,6 +1,5 @@
 #include "simeco/engine.hpp"
 
-#include "base/text.hpp"
 #include "simeco/engine_state.hpp"
 
 #include <algorithm>
@@ -84,7 +83,7 @@ Failure Engine::State::limitReached(std::string message, const CompiledRule* rul
 }
 
 Failure Engine::State::tooLate() {
-  return limitReached("the derivation took longer than its limit of " + shortest(options.limits.seconds) + " s, " + stepText(steps), nullptr);
+  return limitReached(shared.tooLate() + ", " + stepText(steps), nullptr);
 }
 
 Result<void> Engine::State::mayGoOn() {

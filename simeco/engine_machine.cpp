@@ -1,5 +1,7 @@
 #include "simeco/engine_machine.hpp"
 
+#include "base/text.hpp"
+
 #include <algorithm>
 #include <cstdio>
 
@@ -131,6 +133,8 @@ void Machine::hostPrint(const std::string& format, std::span<const double> value
   if (shared_->host->print) shared_->host->print(formatted(format, values));
 }
 
+std::string SharedSettings::tooLate() const { return "the derivation took longer than its limit of " + shortest(limits->seconds) + " s"; }
+
 bool Machine::mayLoop(std::int64_t& loops) {
   constexpr std::int64_t betweenLooks = 1 << 14;
   if (++loops > shared_->limits->loopIterations) {
@@ -139,7 +143,7 @@ bool Machine::mayLoop(std::int64_t& loops) {
   }
   if (loops % betweenLooks != 0) return true;
   if (shared_->watch->cancelled()) giveUp(ErrorCode::Cancelled, "the derivation was cancelled");
-  if (shared_->late()) giveUp(ErrorCode::LimitReached, "the derivation took longer than its time limit, in a loop");
+  if (shared_->late()) giveUp(ErrorCode::LimitReached, shared_->tooLate() + ", in a loop");
   return !trouble_;
 }
 

@@ -34,6 +34,8 @@ struct SharedSettings {
   std::chrono::steady_clock::time_point deadline{};
 
   [[nodiscard]] bool late() const { return std::chrono::steady_clock::now() > deadline; }
+  /// What is said when it is.
+  [[nodiscard]] std::string tooLate() const;
 };
 
 class Machine {
