@@ -23,7 +23,8 @@ std::uint32_t codePointAt(std::string_view text, std::size_t at, std::size_t len
 
 void add(float pixels, int face, const ImWchar* ranges) {
   ImFontConfig config;
-  config.OversampleH = 2;
+  config.OversampleH = 1;
+  config.PixelSnapH = true;
   config.FontNo = face;
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   if (FontBook::isInstalled()) {
@@ -67,6 +68,7 @@ bool FontBook::prepare(float scale) {
   ImVector<ImWchar> ranges;
   builder.BuildRanges(&ranges);
   ImGui::GetIO().Fonts->Clear();
+  ImGui::GetIO().Fonts->Flags |= ImFontAtlasFlags_NoBakedLines;  // they would want a smoothed texture
   add(std::round(16 * scale), kProportional, ranges.Data);
   add(std::round(13.5f * scale), kProportional, ranges.Data);
   add(std::round(20 * scale), kProportional, ranges.Data);

@@ -3,6 +3,7 @@
 
 #include "base/text.hpp"
 #include "render/picture.hpp"
+#include "ui/drawing.hpp"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -72,12 +73,7 @@ class Canvas {
     glDeleteFramebuffers(1, &buffer_);
     glDeleteTextures(1, &texture_);
   }
-  void begin() const {
-    glBindFramebuffer(GL_FRAMEBUFFER, buffer_);
-    glViewport(0, 0, width_, height_);
-    glClearColor(0, 0, 0, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
-  }
+  void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, buffer_); }
   [[nodiscard]] render::Image image() const {
     render::Image image{width_, height_, {}};
     const std::size_t row = static_cast<std::size_t>(width_) * 3;
@@ -144,15 +140,13 @@ struct HeadlessStudio::Inside {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(canvas->width()), static_cast<float>(canvas->height())};
     io.DeltaTime = 1 / 60.0f;
-    if (studio->prepareFonts()) ImGui_ImplOpenGL3_DestroyFontsTexture();
-    ImGui_ImplOpenGL3_NewFrame();
-    if (io.Fonts->TexID == nullptr) ImGui_ImplOpenGL3_CreateFontsTexture();
+    prepareDrawing(*studio);
     ImGui::NewFrame();
     studio->frame();
     ImGui::Render();
     if (drawing == Drawing::Skipped) return;
-    canvas->begin();
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    canvas->bind();
+    draw(*studio, canvas->width(), canvas->height());
   }
 
   Result<void> wait() {

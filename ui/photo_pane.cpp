@@ -28,6 +28,19 @@ void drawPart(const Pane& pane, const Lens& lens, glm::dvec2 low, glm::dvec2 hig
                        {piece.from.x, piece.from.y}, {piece.to.x, piece.to.y});
 }
 
+/// The pane's own ground where its photo does not cover it: in software every pixel drawn twice costs twice.
+void drawGround(const Pane& pane) {
+  const bool isShown = pane.photo != nullptr && pane.photo->tiles;
+  const ImVec2 low = pane.lens.onScreen({{0, 0}}), high = isShown ? pane.lens.onScreen({pane.photo->size_px}) : low;
+  const float left = pane.area.x, top = pane.area.y, right = left + pane.area.width, bottom = top + pane.area.height;
+  const Colour colour = pane.panel.palette.photo;
+  const float upper = std::clamp(low.y, top, bottom), lower = std::clamp(high.y, upper, bottom);
+  pane.list.AddRectFilled({left, top}, {right, upper}, colour);
+  pane.list.AddRectFilled({left, lower}, {right, bottom}, colour);
+  pane.list.AddRectFilled({left, upper}, {std::clamp(low.x, left, right), lower}, colour);
+  pane.list.AddRectFilled({std::clamp(high.x, left, right), upper}, {right, lower}, colour);
+}
+
 void drawPhoto(const Pane& pane) {
   const glm::dvec2 low = pane.lens.onPhoto({pane.area.x, pane.area.y}).px, high = pane.lens.onPhoto({pane.area.x + pane.area.width, pane.area.y + pane.area.height}).px;
   drawPart(pane, pane.lens, low, high);
@@ -356,8 +369,8 @@ Taken photoPane(const Panel& panel, int number, Area area) {
   const int place = viewsOfPanes(panel.project)[static_cast<std::size_t>(number)];
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 low{area.x, area.y}, high{area.x + area.width, area.y + area.height};
-  list.AddRectFilled(low, high, panel.palette.photo, panel.px(4));
   if (place < 0) {
+    list.AddRectFilled(low, high, panel.palette.photo);
     static constexpr std::array<const char*, 3> kKeys = {"pane_front", "pane_right", "pane_top"};
     const char* text = panel.t(kKeys[static_cast<std::size_t>(number)]);
     const ImVec2 size = ImGui::CalcTextSize(text);
@@ -374,6 +387,7 @@ Taken photoPane(const Panel& panel, int number, Area area) {
   panel.state.landmarks["pane_" + view.view.name] = {area.x, area.y, area.width, area.height};
   panel.state.shownFrames[view.view.name] = {pane.lens.frame, {pane.lens.middle.x, pane.lens.middle.y}};
   list.PushClipRect(low, high, true);
+  drawGround(pane);
   drawPhoto(pane);
   list.PushClipRect(pane.lens.onScreen({{0, 0}}), pane.lens.onScreen({size}), true);
   drawEpipolar(pane);

@@ -69,7 +69,7 @@ void PhotoTiles::forgetOldest() {
 const PhotoTiles::Tile* PhotoTiles::tile(Place place, double zoom) {
   auto found = tiles_.find(place);
   if (found == tiles_.end()) {
-    // The smallest level stands in for all others: it never waits.
+    // The smallest level never waits.
     if (toSend_ <= 0 && place.level + 1 < static_cast<int>(levels_->size())) {
       waiting_ = true;
       return nullptr;
@@ -99,18 +99,21 @@ std::vector<PhotoTiles::Piece> PhotoTiles::pieces(glm::dvec2 low, glm::dvec2 hig
     tiles_.clear();
     look_ = look;
   }
-  waiting_ = false;
   const int last = static_cast<int>(levels_->size()) - 1;
   const int level = std::clamp(static_cast<int>(std::floor(std::log2(1 / std::max(zoom, 1e-6)))), 0, last);
   const Photo& shown = (*levels_)[static_cast<std::size_t>(level)];
   const double scale = std::exp2(level);
-  if (const Tile* base = tile({last, 0, 0}, zoom)) pieces.push_back(pieceOf({last, 0, 0}, *base));
-  if (level == last) return pieces;
-  const auto first = [&](double px) { return std::max(0, static_cast<int>(std::floor(px / kTile))); };
-  const auto final = [&](double px, int side) { return std::min((side - 1) / kTile, static_cast<int>(std::floor(px / kTile))); };
-  for (int row = first(low.y / scale); row <= final(high.y / scale, shown.height); ++row)
-    for (int column = first(low.x / scale); column <= final(high.x / scale, shown.width); ++column)
-      if (const Tile* here = tile({level, column, row}, zoom)) pieces.push_back(pieceOf({level, column, row}, *here));
+  const auto first = [&](double px) { return std::max(0, static_cast<int>(std::floor(px / scale / kTile))); };
+  const auto final = [&](double px, int side) { return std::min((side - 1) / kTile, static_cast<int>(std::floor(px / scale / kTile))); };
+  bool gaps = false;
+  for (int row = first(low.y); row <= final(high.y, shown.height); ++row)
+    for (int column = first(low.x); column <= final(high.x, shown.width); ++column) {
+      const Tile* here = tile({level, column, row}, zoom);
+      if (here != nullptr) pieces.push_back(pieceOf({level, column, row}, *here));
+      gaps = gaps || here == nullptr;
+    }
+  // The smallest level stands in for what is missing, and only then: in software every pixel drawn twice costs twice.
+  if (const Tile* base = tile({last, 0, 0}, zoom); gaps && base != nullptr) pieces.insert(pieces.begin(), pieceOf({last, 0, 0}, *base));
   forgetOldest();
   return pieces;
 }

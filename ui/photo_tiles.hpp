@@ -39,12 +39,15 @@ class PhotoTiles {
     glm::vec2 from{0, 0}, to{1, 1};
   };
   /// What covers the photo from `low` to `high` at `zoom` screen px a photo px, in the order to be drawn. Sends what is missing, at most
-  /// kSentAFrame tiles a call of `beginFrame`.
+  /// kSentAFrame tiles a call of `beginFrame`; pieces lie over each other only where tiles are missing.
   [[nodiscard]] std::vector<Piece> pieces(glm::dvec2 low, glm::dvec2 high, double zoom, PhotoLook look);
   [[nodiscard]] const skeleton3d::Photo& photo() const { return levels_->front(); }
   /// The same, for work in the background.
   [[nodiscard]] std::shared_ptr<const skeleton3d::Photo> sharedPhoto() const { return {levels_, &levels_->front()}; }
-  void beginFrame() { toSend_ = kSentAFrame; }
+  void beginFrame() {
+    toSend_ = kSentAFrame;
+    waiting_ = false;
+  }
   /// Something shown has still to be sent.
   [[nodiscard]] bool waiting() const { return waiting_; }
   [[nodiscard]] std::size_t kept() const { return tiles_.size(); }

@@ -187,7 +187,8 @@ void overlayButtons(const Panel& panel, Area area) {
 Taken plantPane(const Panel& panel, Area area) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 low{area.x, area.y}, high{area.x + area.width, area.y + area.height};
-  list.AddRectFilled(low, high, panel.palette.photo, panel.px(4));
+  const bool isPictured = panel.shown() != nullptr && panel.state.showPlant && panel.plantPicture.id() != 0, isDimmed = isPast(panel) || isStale(panel);
+  if (!isPictured || isDimmed) list.AddRectFilled(low, high, panel.palette.photo);
   panel.state.landmarks["pane_plant"] = {area.x, area.y, area.width, area.height};
   panel.state.plantPaneSize = {static_cast<int>(area.width), static_cast<int>(area.height)};
   ImGui::PushID("plant");
@@ -217,9 +218,8 @@ Taken plantPane(const Panel& panel, Area area) {
   }
   if (hovered) panel.state.status = panel.t(panel.state.way == Way::Stems ? "click_plant_stems" : "click_plant");
   list.PushClipRect(low, high, true);
-  if (panel.state.showPlant && panel.plantPicture.id() != 0)
-    list.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(panel.plantPicture.id())), low, high, {0, 0}, {1, 1},
-                         isPast(panel) || isStale(panel) ? rgb(0xFFFFFF, 120) : rgb(0xFFFFFF), panel.px(4));
+  if (isPictured)
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(panel.plantPicture.id())), low, high, {0, 0}, {1, 1}, rgb(0xFFFFFF, isDimmed ? 120 : 255));
   drawGhosts(view);
   if (panel.state.showSkeleton && !panel.state.grammarDraft) drawSkeleton(view);
   drawDrag(view);

@@ -11,18 +11,20 @@ using document::Step;
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+/// What a part stands on: its own ground, or the window's, which is there before anything is drawn.
+enum class Ground { Panel, Window };
+
 /// Draws one part of the window and keeps the step it gave.
 template <class Content>
-void part(const Panel& panel, const char* name, Area area, Colour ground, float pad, std::vector<Step>& steps, Content content) {
+void part(const Panel& panel, const char* name, Area area, Ground ground, float pad, std::vector<Step>& steps, Content content) {
   ImGui::SetNextWindowPos({area.x, area.y});
   ImGui::SetNextWindowSize({area.width, area.height});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, ground);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {panel.px(pad), panel.px(pad)});
-  ImGui::Begin(name, nullptr, pad > 0 ? kFixed & ~ImGuiWindowFlags_NoScrollbar : kFixed | ImGuiWindowFlags_NoScrollWithMouse);
+  const ImGuiWindowFlags scrolling = pad > 0 ? kFixed & ~ImGuiWindowFlags_NoScrollbar : kFixed | ImGuiWindowFlags_NoScrollWithMouse;
+  ImGui::Begin(name, nullptr, ground == Ground::Window ? scrolling | ImGuiWindowFlags_NoBackground : scrolling);
   ImGui::PopStyleVar();
   if (Taken taken = content()) steps.push_back(std::move(*taken));
   ImGui::End();
-  ImGui::PopStyleColor();
 }
 
 void topBar(const Panel& panel, Area area) {
@@ -182,7 +184,6 @@ void statusLine(const Panel& panel, Area area) {
 std::vector<Step> shell(const Panel& panel) {
   std::vector<Step> steps;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  const Palette& p = panel.palette;
   Layout& layout = panel.state.preferences.layout;
   const float top = panel.px(46), status = panel.px(30), below = panel.px(72), left = panel.px(layout.left), right = panel.px(layout.right), between = panel.px(5);
   const Area barArea{0, 0, screen.x, top};
@@ -198,18 +199,17 @@ std::vector<Step> shell(const Panel& panel) {
   panel.state.landmarks.clear();
   panel.state.shownTroubles = 0;
   panel.state.plantPaneSize = {0, 0};
-  ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, screen, p.ground);
-  part(panel, "##bar", barArea, p.panel, 0, steps, [&] { return topBar(panel, barArea), Taken{}; });
-  part(panel, "##left", leftArea, p.panel, 12, steps, [&] { return leftColumn(panel); });
-  part(panel, "##centre", middle, p.ground, 0, steps, [&] { return centre(panel, middle); });
-  part(panel, "##right", rightArea, p.panel, 14, steps, [&] { return inspector(panel); });
-  part(panel, "##left_border", {left, top, between, leftArea.height}, p.ground, 0, steps,
+  part(panel, "##bar", barArea, Ground::Panel, 0, steps, [&] { return topBar(panel, barArea), Taken{}; });
+  part(panel, "##left", leftArea, Ground::Panel, 12, steps, [&] { return leftColumn(panel); });
+  part(panel, "##centre", middle, Ground::Window, 0, steps, [&] { return centre(panel, middle); });
+  part(panel, "##right", rightArea, Ground::Panel, 14, steps, [&] { return inspector(panel); });
+  part(panel, "##left_border", {left, top, between, leftArea.height}, Ground::Window, 0, steps,
        [&] { return layout.left += draggedBorder(panel, "border_left", {left, top, between, leftArea.height}, Border::Upright), Taken{}; });
-  part(panel, "##right_border", {rightArea.x - between, top, between, rightArea.height}, p.ground, 0, steps,
+  part(panel, "##right_border", {rightArea.x - between, top, between, rightArea.height}, Ground::Window, 0, steps,
        [&] { return layout.right -= draggedBorder(panel, "border_right", {rightArea.x - between, top, between, rightArea.height}, Border::Upright), Taken{}; });
   layout = withinReason(layout);
-  part(panel, "##time", timeArea, p.panel, 0, steps, [&] { return timeline(panel, timeArea), Taken{}; });
-  part(panel, "##status", statusArea, p.ground, 0, steps, [&] { return statusLine(panel, statusArea), Taken{}; });
+  part(panel, "##time", timeArea, Ground::Panel, 0, steps, [&] { return timeline(panel, timeArea), Taken{}; });
+  part(panel, "##status", statusArea, Ground::Window, 0, steps, [&] { return statusLine(panel, statusArea), Taken{}; });
   if (panel.state.shortcuts) shortcutsSheet(panel);
   if (panel.state.history) historySheet(panel);
   if (panel.state.tour) tourCard(panel);

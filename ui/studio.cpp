@@ -474,6 +474,8 @@ bool Studio::prepareFonts() {
   return inside_->fonts.prepare(inside_->state.scale);
 }
 
+Colour Studio::ground() const { return paletteOf(inside_->state.theme).ground; }
+
 void Studio::frame() {
   inside_->takeAnswers();
   inside_->draw();

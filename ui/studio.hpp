@@ -41,6 +41,8 @@ class Studio {
 
   /// Before each frame; true when the fonts' texture must be sent again.
   [[nodiscard]] bool prepareFonts();
+  /// What the whole window is cleared to before a frame is drawn.
+  [[nodiscard]] Colour ground() const;
   void frame();
 
   /// Something in the background has still to come, or the plant is growing: draw again soon.

@@ -1,5 +1,7 @@
 #include "ui/window.hpp"
 
+#include "ui/drawing.hpp"
+
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
@@ -65,19 +67,14 @@ class Desktop {
 };
 
 void drawFrame(Studio& studio, GLFWwindow* window) {
-  if (studio.prepareFonts()) ImGui_ImplOpenGL3_DestroyFontsTexture();
-  ImGui_ImplOpenGL3_NewFrame();
-  if (ImGui::GetIO().Fonts->TexID == nullptr) ImGui_ImplOpenGL3_CreateFontsTexture();
+  prepareDrawing(studio);
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
   studio.frame();
   ImGui::Render();
   int width = 0, height = 0;
   glfwGetFramebufferSize(window, &width, &height);
-  glViewport(0, 0, width, height);
-  glClearColor(0.1f, 0.1f, 0.1f, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  draw(studio, width, height);
   glfwSwapBuffers(window);
 }
 
