@@ -2,7 +2,7 @@
 /// \file
 /// Snapping: a click near a stem goes to the stem's centre line, sub-pixel, and says how sure that is. Only across the stem:
 /// where along its stem a click is stays as the person clicked it, so that a click at a fork does not slide away. Only a tip
-/// is also found along its stem, where the photo shows clearly that the stem ends.
+/// and the collar are also found along their stem, where the photo shows clearly that the stem ends.
 ///
 /// `snapClick` knows one photo and one click. `readRidges` knows all stems clicked in a photo: each stem's clicks are read as
 /// one line, the likeliest ridge along it is found by dynamic programming, and the two edges beside each node are fitted, so
@@ -30,7 +30,7 @@ struct RidgeReading {
   double width_px = 0;        ///< from edge to edge
   double sigmaWidth_px = 0;
   double confidence = 0;      ///< 0 to 1: how likely this is the stem that was meant
-  std::optional<PhotoPoint> tip = std::nullopt;  ///< of a stem's last node, where the photo shows the stem to end
+  std::optional<PhotoPoint> tip = std::nullopt;  ///< of a stem's last node, and of the collar, where the photo shows the stem to end
   double sigmaTip_px = 1;     ///< of `tip`, along the stem: a thick end is rounded, and where on it the node is, nobody knows
 
   friend bool operator==(const RidgeReading&, const RidgeReading&) = default;

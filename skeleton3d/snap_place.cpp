@@ -31,7 +31,8 @@ struct Constraint {
 glm::dvec2 directionOf(Angle along) { return {std::cos(along.radians()), std::sin(along.radians())}; }
 
 /// The constraints of one click: its own in both directions, and across its stem the ridge's where it is believed.
-constexpr double kTipsMissed = 8;    // what it costs not to believe it, in squared sigmas
+constexpr double kLeastConfidence = 0.2;  // of a reading whose width counts
+constexpr double kTipMissed = 5;     // what it costs not to believe an end that a photo shows, in squared sigmas; all of a node are believed or none
 
 void addConstraints(const Sight& sight, bool believed, bool tips, double click_px, double cameras_px, std::vector<Constraint>& constraints) {
   constraints.push_back({sight.view, sight.click, {1 / click_px, 0}});
@@ -121,10 +122,12 @@ Believed mostLikely(const std::vector<Sight>& sights, PlantPoint start, double c
     const bool tips = choice <= all && anyTip;
     std::vector<Constraint> constraints;
     std::vector<bool> believed(sights.size(), false);
-    double cost = anyTip && !tips ? kTipsMissed : 0;
+    double cost = 0;
     for (std::size_t k = 0; k < withRidge.size(); ++k) {
+      const RidgeReading& ridge = *sights[withRidge[k]].ridge;
       believed[withRidge[k]] = (choice >> k & 1U) != 0;
-      if (!believed[withRidge[k]]) cost += costOfDisbelief(*sights[withRidge[k]].ridge);
+      if (!believed[withRidge[k]]) cost += costOfDisbelief(ridge);
+      if (ridge.tip && !(tips && believed[withRidge[k]])) cost += kTipMissed;
     }
     for (std::size_t i = 0; i < sights.size(); ++i) addConstraints(sights[i], believed[i], tips, click_px, cameras_px, constraints);
     const Placed here = placed(constraints, start);
@@ -140,7 +143,7 @@ Believed mostLikely(const std::vector<Sight>& sights, PlantPoint start, double c
 void addRadius(SnappedNode& node, const std::vector<Sight>& sights, unsigned which) {
   std::vector<MeasuredRadius> readings;
   for (std::size_t i = 0; i < sights.size(); ++i)
-    if ((which >> i & 1U) != 0 && sights[i].ridge->confidence >= 0.2) readings.push_back(radiusFrom(*sights[i].view, *sights[i].ridge, node.at));
+    if ((which >> i & 1U) != 0 && sights[i].ridge->confidence >= kLeastConfidence) readings.push_back(radiusFrom(*sights[i].view, *sights[i].ridge, node.at));
   if (const auto radius = combinedRadius(readings)) node.radius = radius->radius, node.sigmaRadius = radius->sigma;
 }
 
@@ -155,27 +158,29 @@ std::vector<Sight> sightsOf(std::span<const View> views, const ClickedNode& node
   return sights;
 }
 
+/// What one reading says of its stem's radius, where it was believed. `sigma` is relative.
+std::optional<MeasuredRadius> believedRadius(const View& view, const SnappedNode& node, const RidgeReadings& readings) {
+  const auto inView = readings.find(view.name);
+  if (inView == readings.end() || std::find(node.snappedIn.begin(), node.snappedIn.end(), view.name) == node.snappedIn.end()) return std::nullopt;
+  const RidgeReading& ridge = inView->second.at(node.id);
+  if (ridge.confidence < kLeastConfidence) return std::nullopt;
+  return MeasuredRadius{radiusFrom(view, ridge, node.at).radius, std::hypot(ridge.sigmaWidth_px / ridge.width_px, 0.05 + 0.05 / (ridge.confidence * ridge.confidence))};
+}
+
 /// A radius for every node that has readings, from all readings of its stem as a taper.
 std::map<NodeId, double> taperedRadiiOf(std::span<const View> views, std::span<const SnappedNode> placed, std::span<const ClickedStem> stems, const RidgeReadings& readings) {
   std::map<NodeId, const SnappedNode*> places;
   for (const SnappedNode& node : placed) places[node.id] = &node;
   std::map<NodeId, double> radii;
   for (std::size_t s = 0; s < stems.size(); ++s) {
-    std::vector<MeasuredRadius> along;
+    std::vector<MeasuredRadius> along;  // by relative sigmas: by absolute ones a narrow mistake would outweigh all else
     std::vector<NodeId> whose;
     for (const NodeId id : stems[s].nodes) {
-      if (id == stems[s].nodes.front() && s > 0) continue;  // its parent's
-      for (const View& view : views) {
-        const auto inView = readings.find(view.name);
-        if (inView == readings.end() || !inView->second.contains(id) || !places.contains(id)) continue;
-        const SnappedNode& node = *places.at(id);
-        const RidgeReading& ridge = inView->second.at(id);
-        if (std::find(node.snappedIn.begin(), node.snappedIn.end(), view.name) == node.snappedIn.end() || ridge.confidence < 0.2) continue;
-        MeasuredRadius radius = radiusFrom(view, ridge, node.at);
-        radius.sigma = radius.radius * (0.05 + 0.05 / (ridge.confidence * ridge.confidence));
-        along.push_back(radius);
-        whose.push_back(id);
-      }
+      if ((id == stems[s].nodes.front() && s > 0) || !places.contains(id)) continue;  // its parent's
+      std::vector<MeasuredRadius> here;
+      for (const View& view : views)
+        if (const auto radius = believedRadius(view, *places.at(id), readings)) here.push_back(*radius);
+      if (!here.empty()) along.push_back(middleRadius(here)), whose.push_back(id);
     }
     const std::vector<double> tapered = taperedRadii(along);
     for (std::size_t i = 0; i < tapered.size(); ++i) radii[whose[i]] = tapered[i];

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <vector>
 
 namespace axil::skeleton3d {
@@ -21,6 +20,7 @@ struct SeenStem {
   std::vector<glm::dvec2> clicks;
   std::vector<bool> own;  ///< a stem's first node belongs to its parent, so its line is not this stem's to find
   bool endsIn = false;    ///< its last node is seen, and nothing goes on from there
+  bool beginsIn = false;  ///< its first node is seen, and belongs to nothing else: the collar
   detail::StemLine line;
   detail::Expected expected;
 };
@@ -53,9 +53,9 @@ std::vector<SeenStem> seenStems(const std::string& view, std::span<const Clicked
   std::map<NodeId, int> owners;
   for (const ClickedStem& stem : stems)
     for (std::size_t i = 1; i < stem.nodes.size(); ++i) ++owners[stem.nodes[i]];
-  std::set<NodeId> begins;
+  std::map<NodeId, int> begins;
   for (const ClickedStem& stem : stems)
-    if (!stem.nodes.empty()) begins.insert(stem.nodes.front());
+    if (!stem.nodes.empty()) ++begins[stem.nodes.front()];
   std::vector<SeenStem> seen;
   for (const ClickedStem& stem : stems) {
     SeenStem s;
@@ -70,6 +70,7 @@ std::vector<SeenStem> seenStems(const std::string& view, std::span<const Clicked
       course.push_back(better == expected.end() ? found->second : better->second.at);
     }
     s.endsIn = !s.nodes.empty() && s.nodes.back() == stem.nodes.back() && !begins.contains(stem.nodes.back()) && owners[stem.nodes.back()] == 1;
+    s.beginsIn = !s.nodes.empty() && s.nodes.front() == stem.nodes.front() && begins.at(stem.nodes.front()) == 1 && !owners.contains(stem.nodes.front());
     s.line = detail::stemLine(course, expected.empty() ? click_px : 0.4 * click_px, kStep_px);
     if (s.line.at.empty()) continue;
     s.expected = expectedAlong(s, expected);
@@ -78,12 +79,53 @@ std::vector<SeenStem> seenStems(const std::string& view, std::span<const Clicked
   return seen;
 }
 
-/// The end of the stem near its last click.
-void addTip(const Photo& photo, const SeenStem& stem, const SnapOptions& options, RidgeReading& reading) {
+/// How far beyond its last node a stem is seen to end, and how much that varies, in widths. A blunt tip, cut or rounded, is seen
+/// by anything up to half its width further; at the collar the ground ends the stem, and seen from a little above its near rim is lower.
+struct StemEnd {
+  double beyond = 0, scatter = 0;
+};
+constexpr StemEnd kTip{0.25, 0.12}, kCollar{0.06, 0.1};
+
+/// Where the stem is seen to end near its last click, or near its first: how far from `reading.at`, and in which direction.
+struct SeenEnd {
+  double beyond_px = 0;
+  glm::dvec2 out{1, 0};
+};
+
+std::optional<SeenEnd> seenEnd(const Photo& photo, const SeenStem& stem, std::size_t i, const SnapOptions& options, const RidgeReading& reading) {
   const glm::dvec2 along{std::cos(reading.along.radians()), std::sin(reading.along.radians())};
-  const glm::dvec2 course = stem.clicks.back() - stem.clicks[stem.clicks.size() - 2], out = glm::dot(course, along) < 0 ? -along : along;
-  const double reach_px = std::min(3 * options.click_px, 0.5 * glm::length(course));
-  if (const auto beyond = detail::tipBeyond(photo, reading, out, reach_px)) reading.tip = PhotoPoint{reading.at.px + *beyond * out}, reading.sigmaTip_px = std::hypot(1, 0.2 * reading.width_px);
+  const glm::dvec2 course = stem.clicks[i] - stem.clicks[i > 0 ? i - 1 : 1], out = glm::dot(course, along) < 0 ? -along : along;
+  const auto beyond = detail::tipBeyond(photo, reading, out, std::min(3 * options.click_px, 0.5 * glm::length(course)));
+  return beyond ? std::optional(SeenEnd{*beyond, out}) : std::nullopt;
+}
+
+/// The places of the stem's line that are well inside it, where it ends as seen near its last click or its first.
+detail::PlaceRange insideOf(const SeenStem& stem, std::size_t i, const SeenEnd& end, const RidgeReading& reading) {
+  constexpr double kRounded = 0.5;  // of the width
+  const glm::dvec2 at = reading.at.px + (end.beyond_px - kRounded * reading.width_px) * end.out;
+  detail::PlaceRange range{0, stem.line.at.size() - 1};
+  const auto outside = [&](std::size_t place) { return glm::dot(stem.line.at[place] - at, end.out) > 0; };
+  if (i > 0)
+    while (range.last > 0 && outside(range.last)) --range.last;
+  else
+    while (range.first < range.last && outside(range.first)) ++range.first;
+  return range;
+}
+
+/// What is read at node `i`. At an end of the stem it is read once more without what lies beyond, where there are no edges.
+std::optional<RidgeReading> readAt(const Photo& photo, const SeenStem& stem, const std::vector<detail::EdgePair>& edges, std::size_t i, const SnapOptions& options,
+                                   const detail::PathOptions& path) {
+  const bool tip = stem.endsIn && i + 1 == stem.nodes.size(), collar = stem.beginsIn && i == 0;
+  auto reading = detail::readingAt(stem.line, edges, stem.line.placeOf[i], stem.clicks[i], path, {0, edges.size() - 1});
+  if (!reading || !(tip || collar)) return reading;
+  const auto end = seenEnd(photo, stem, i, options, *reading);
+  if (!end) return reading;
+  const glm::dvec2 endsAt = reading->at.px + end->beyond_px * end->out;
+  if (const auto inside = detail::readingAt(stem.line, edges, stem.line.placeOf[i], stem.clicks[i], path, insideOf(stem, i, *end, *reading))) reading = inside;
+  const StemEnd usual = tip ? kTip : kCollar;
+  reading->tip = PhotoPoint{endsAt - usual.beyond * reading->width_px * end->out};
+  reading->sigmaTip_px = std::hypot(1, usual.scatter * reading->width_px);
+  return reading;
 }
 
 }  // namespace
@@ -101,10 +143,7 @@ std::map<NodeId, RidgeReading> readRidges(const Photo& photo, const std::string&
     if (!likelihood.empty()) edges[s] = detail::likeliestEdges(photo, likelihood, seen[s].line, seen[s].clicks, path, seen[s].expected);
     for (std::size_t i = 0; i < seen[s].nodes.size(); ++i) {
       if (!seen[s].own[i] || readings.contains(seen[s].nodes[i])) continue;
-      const auto reading = detail::readingAt(seen[s].line, edges[s], seen[s].line.placeOf[i], seen[s].clicks[i], path);
-      if (!reading) continue;
-      readings[seen[s].nodes[i]] = *reading;
-      if (seen[s].endsIn && i + 1 == seen[s].nodes.size()) addTip(photo, seen[s], options, readings[seen[s].nodes[i]]);
+      if (const auto reading = readAt(photo, seen[s], edges[s], i, options, path)) readings[seen[s].nodes[i]] = *reading;
     }
   }
   return readings;

@@ -12,8 +12,11 @@ namespace {
 
 constexpr double kHalfStrength = 40;  ///< an edge pair of so many grey levels is half as good as any can be
 constexpr double kReward = 2.0;       ///< of the best edges at one place, against squared sigmas of everything else
-constexpr double kWidthRatio = 1.22;
+constexpr double kWidthRatio = 1.22;  ///< from one width that is tried to the next,
+constexpr double kWidthStep_px = 2;   ///< at most so much: an edge is as sharp in a wide stem
 constexpr double kWidthScatter = 0.15; ///< of an expected width's logarithm
+constexpr double kMostClicks = 2;     ///< times a click's scatter: a line that is known no better says nothing
+constexpr double kLeastLength = 0.5;  ///< of a stem that is seen, in widths: shorter it has no edges along it
 constexpr int kMaxShift = 2;          ///< states sideways from one place to the next
 
 glm::dvec2 acrossOf(glm::dvec2 along) { return {-along.y, along.x}; }
@@ -34,7 +37,7 @@ Grid gridOf(const PathOptions& options, const Expected& expected) {
   }
   const int half = static_cast<int>(options.reach_px / kRidgeStep_px);
   for (int i = -half; i <= half; ++i) grid.middles.push_back(i * kRidgeStep_px);
-  for (double width = narrowest; width <= widest; width *= kWidthRatio) grid.widths.push_back(width);
+  for (double width = narrowest; width <= widest; width = std::min(kWidthRatio * width, width + kWidthStep_px)) grid.widths.push_back(width);
   return grid;
 }
 
@@ -150,6 +153,7 @@ EdgeFit fittedEdge(const std::vector<Sample>& samples, int order) {
 /// Where two edges were fitted.
 struct Frame {
   glm::dvec2 origin{0, 0}, along{1, 0}, click{0, 0};
+  double click_px = 3;
   double expectedWidth_px = 0;
   int order = 1;
   std::size_t samples = 0;
@@ -160,12 +164,16 @@ double sigmaOf(const EdgeFit& edge, const Frame& frame) {
   return edge.scatter / std::sqrt(std::max(1.0, 0.4 * static_cast<double>(frame.samples) * edge.share / (frame.order + 1)));
 }
 
+/// How much wider or narrower than expected, beyond what roundness and the expectation leave open: then one of the edges is that
+/// of a branch or of something behind, and the middle is off by up to half of it.
+double oddWidth_px(double width, double expected) { return expected > 0 ? std::max(std::abs(width - expected) - 0.5 - 0.04 * expected, 0.0) : 0; }
+
 /// The line midway between both edges. Where one edge is hardly seen and the width known, half a width from the other.
 std::optional<RidgeReading> joined(const EdgeFit& left, const EdgeFit& right, const Frame& frame) {
   RidgeReading reading;
   double middle = 0.5 * (left.at + right.at), slope = 0.5 * (left.slope + right.slope), width = right.at - left.at;
   const double sigmaLeft = sigmaOf(left, frame), sigmaRight = sigmaOf(right, frame), expected = frame.expectedWidth_px;
-  reading.sigmaAcross_px = std::hypot(0.15, 0.5 * sigmaLeft, 0.5 * sigmaRight);
+  reading.sigmaAcross_px = std::hypot(std::hypot(0.15, 0.5 * oddWidth_px(width, expected)), 0.5 * sigmaLeft, 0.5 * sigmaRight);
   reading.sigmaWidth_px = std::hypot(0.3, sigmaLeft, sigmaRight);
   reading.confidence = std::min(left.support, right.support);
   const bool oneSided = expected > 0 && (std::min(left.support, right.support) < 0.4 * std::max(left.support, right.support) ||
@@ -184,7 +192,7 @@ std::optional<RidgeReading> joined(const EdgeFit& left, const EdgeFit& right, co
   reading.at.px += glm::dot(frame.click - reading.at.px, direction) * direction;
   reading.along = Angle::fromRadians(std::atan2(direction.y, direction.x));
   reading.width_px = width / std::sqrt(1 + slope * slope);
-  if (!(reading.width_px > 0.5)) return std::nullopt;
+  if (!(reading.width_px > 0.5) || reading.sigmaAcross_px > kMostClicks * frame.click_px) return std::nullopt;
   return reading;
 }
 
@@ -219,19 +227,20 @@ std::vector<EdgePair> likeliestEdges(const Photo& photo, const StemLikelihood& l
   return edges;
 }
 
-std::optional<RidgeReading> readingAt(const StemLine& line, const std::vector<EdgePair>& edges, std::size_t place, glm::dvec2 click, const PathOptions& options) {
+std::optional<RidgeReading> readingAt(const StemLine& line, const std::vector<EdgePair>& edges, std::size_t place, glm::dvec2 click, const PathOptions& options,
+                                      PlaceRange within) {
   const auto middleOf = [&](std::size_t i) { return 0.5 * (edges[i].left + edges[i].right); };
   // The place beside the click on the path that was found, not on the line that was searched along.
-  std::size_t nearest = place;
-  for (std::size_t i = 0; i < edges.size(); ++i)
+  std::size_t nearest = std::clamp(place, within.first, within.last);
+  for (std::size_t i = within.first; i <= within.last; ++i)
     if (std::abs(line.length_px[i] - line.length_px[place]) < 3 * options.click_px && glm::length(middleOf(i) - click) < glm::length(middleOf(nearest) - click)) nearest = i;
   const double width = glm::length(edges[nearest].right - edges[nearest].left);
   const double reach = std::clamp(1.2 * width, 8.0, 40.0);
   std::size_t a = nearest, b = nearest;
-  while (a > 0 && line.length_px[nearest] - line.length_px[a] < reach) --a;
-  while (b + 1 < edges.size() && line.length_px[b] - line.length_px[nearest] < reach) ++b;
+  while (a > within.first && line.length_px[nearest] - line.length_px[a] < reach) --a;
+  while (b < within.last && line.length_px[b] - line.length_px[nearest] < reach) ++b;
   const glm::dvec2 chord = middleOf(b) - middleOf(a);
-  if (b - a < 3 || glm::length(chord) < 3) return std::nullopt;
+  if (b - a < 3 || glm::length(chord) < std::max(3.0, kLeastLength * width)) return std::nullopt;  // seen from its end
   const glm::dvec2 along = glm::normalize(chord), across = acrossOf(along);
   const glm::dvec2 origin = middleOf(nearest) + glm::dot(click - middleOf(nearest), along) * along;
   std::vector<Sample> lefts, rights;
@@ -243,7 +252,7 @@ std::optional<RidgeReading> readingAt(const StemLine& line, const std::vector<Ed
   }
   const bool bothSides = nearest - a > 2 && b - nearest > 2;
   const int order = bothSides && b - a >= 6 ? 2 : 1;
-  return joined(fittedEdge(lefts, order), fittedEdge(rights, order), {origin, along, click, edges[nearest].expectedWidth_px, order, lefts.size()});
+  return joined(fittedEdge(lefts, order), fittedEdge(rights, order), {origin, along, click, options.click_px, edges[nearest].expectedWidth_px, order, lefts.size()});
 }
 
 }  // namespace axil::skeleton3d::detail

@@ -34,7 +34,14 @@ struct Expected {
 [[nodiscard]] std::vector<EdgePair> likeliestEdges(const Photo& photo, const StemLikelihood& likelihood, const StemLine& line, std::span<const glm::dvec2> clicks,
                                                    const PathOptions& options, const Expected& expected = {});
 
-/// Centre line and edges beside `click`, from the edges along some of the line near place `place`.
-[[nodiscard]] std::optional<RidgeReading> readingAt(const StemLine& line, const std::vector<EdgePair>& edges, std::size_t place, glm::dvec2 click, const PathOptions& options);
+/// Places of a line, both included.
+struct PlaceRange {
+  std::size_t first = 0, last = 0;
+};
+
+/// Centre line and edges beside `click`, from the edges along some of the line near place `place`, but none outside `within`:
+/// beyond a stem's end there are none.
+[[nodiscard]] std::optional<RidgeReading> readingAt(const StemLine& line, const std::vector<EdgePair>& edges, std::size_t place, glm::dvec2 click, const PathOptions& options,
+                                                    PlaceRange within);
 
 }  // namespace axil::skeleton3d::detail

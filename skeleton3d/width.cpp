@@ -1,5 +1,6 @@
 #include "skeleton3d/width.hpp"
 
+#include "base/result.hpp"
 #include "skeleton3d/camera.hpp"
 
 #include <glm/geometric.hpp>
@@ -22,8 +23,11 @@ double weightedMedian(std::vector<MeasuredRadius> members) {
   std::stable_sort(members.begin(), members.end(), [](const auto& a, const auto& b) { return a.radius < b.radius; });
   double all = 0, below = 0;
   for (const auto& m : members) all += weightOf(m);
-  for (const auto& m : members)
-    if ((below += weightOf(m)) >= 0.5 * all) return m.radius;
+  for (std::size_t i = 0; i + 1 < members.size(); ++i) {
+    below += weightOf(members[i]);
+    if (std::abs(below - 0.5 * all) < 1e-9 * all) return 0.5 * (members[i].radius + members[i + 1].radius);
+    if (below > 0.5 * all) return members[i].radius;
+  }
   return members.back().radius;
 }
 
@@ -51,6 +55,13 @@ std::optional<MeasuredRadius> combinedRadius(std::span<const MeasuredRadius> rea
     sum += weight * r.radius;
   }
   return MeasuredRadius{sum / weights, 1 / std::sqrt(weights)};
+}
+
+MeasuredRadius middleRadius(std::span<const MeasuredRadius> readings) {
+  AXIL_ASSERT(!readings.empty(), "a middle of nothing");
+  double weights = 0;
+  for (const MeasuredRadius& r : readings) weights += weightOf(r) * weightOf(r);
+  return {weightedMedian({readings.begin(), readings.end()}), 1 / std::sqrt(weights)};
 }
 
 std::vector<double> taperedRadii(std::span<const MeasuredRadius> radii) {
