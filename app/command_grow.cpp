@@ -18,6 +18,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <memory>
 
 namespace axil::app {
 
@@ -52,6 +53,7 @@ const std::map<std::string, render::ViewPreset> kViews = {{"front", render::View
 struct Growing {
   std::function<Result<Plant>(double time)> at;
   double endTime = 0;
+  std::shared_ptr<const Plant> last = {};  ///< the plant at `endTime`, where it is known already; it may be large
 };
 
 /// An L-system has no time of its own: its moments are its steps.
@@ -68,15 +70,16 @@ Result<Growing> growingOfLSystem(const simeco::Grammar& grammar, const GrowComma
   options.derive.derive.steps = command.steps;
   constexpr double kMostSteps = 1e9;  // the engine's own limit is lower
   if (command.time) options.derive.derive.steps = static_cast<std::int64_t>(std::min(*command.time, kMostSteps));
-  const auto last = simeco::plantOfLSystem(grammar, options);
-  if (!last) return last.failure();
-  return Growing{[grammar, options, last = *last](double time) -> Result<Plant> {
-                   if (time >= last.time) return last;
+  auto grown = simeco::plantOfLSystem(grammar, options);
+  if (!grown) return grown.failure();
+  const auto last = std::make_shared<const Plant>(*std::move(grown));
+  return Growing{[grammar, options, last](double time) -> Result<Plant> {
+                   if (time >= last->time) return *last;
                    simeco::LSystemPlantOptions earlier = options;
                    earlier.derive.derive.steps = static_cast<std::int64_t>(time);
                    return simeco::plantOfLSystem(grammar, earlier);
                  },
-                 last->time};
+                 last->time, last};
 }
 
 Result<Growing> growingOf(const simeco::Grammar& grammar, std::uint64_t seed, const GrowCommand& command) {
@@ -106,17 +109,6 @@ Result<std::string> pictureBytes(const render::PlantMesh& mesh, const render::Pi
   return render::pngBytes(*image);
 }
 
-Result<void> writeObj(const render::PlantMesh& mesh, const fs::path& out) {
-  // The OBJ names its library, and a name there must not have blanks.
-  std::string name = out.stem().string();
-  std::replace_if(name.begin(), name.end(), [](unsigned char c) { return c <= ' '; }, '_');
-  const fs::path library = out.parent_path() / (name + ".mtl");
-  const auto files = render::objAndMtl(mesh, library.filename().string());
-  if (!files) return files.failure();
-  if (auto written = writeFile(library, files->mtl); !written) return written;
-  return writeFile(out, files->obj);
-}
-
 Result<void> written(const Result<std::string>& bytes, const fs::path& out) {
   if (!bytes) return bytes.failure();
   return writeFile(out, *bytes);
@@ -137,6 +129,26 @@ Result<std::vector<simeco::Obstacle>> obstaclesAround(const simeco::Grammar& gra
   return obstacles;
 }
 
+Result<std::shared_ptr<const Plant>> plantAtEnd(const Growing& growing) {
+  if (growing.last != nullptr) return growing.last;
+  auto plant = growing.at(growing.endTime);
+  if (!plant) return plant.failure();
+  return std::make_shared<const Plant>(*std::move(plant));
+}
+
+/// A picture, a mesh or a skeleton, by the file's ending.
+Result<void> writePlant(const Plant& plant, const GrowCommand& command, const render::PictureOptions& picture) {
+  const std::string ending = fs::path(command.out).extension().string();
+  if (ending == ".json") return written(skeletonBytes(plant), command.out);
+  const auto mesh = render::meshOf(plant);
+  if (!mesh) return mesh.failure();
+  for (const std::string& note : mesh->notes) std::fprintf(stderr, "axil: note: %s\n", note.c_str());
+  if (ending == ".png") return written(pictureBytes(*mesh, picture), command.out);
+  if (ending == ".glb") return render::writeGlb(*mesh, command.out, {.metresPerUnit = document::metresPer(command.unit).value_or(1)});
+  if (ending == ".ply") return written(render::plyBytes(*mesh), command.out);
+  return render::writeObj(*mesh, command.out);
+}
+
 Result<void> grow(const simeco::Grammar& grammar, std::uint64_t seed, const GrowCommand& command) {
   const std::string ending = fs::path(command.out).extension().string();
   const auto growing = growingOf(grammar, seed, command);
@@ -145,16 +157,9 @@ Result<void> grow(const simeco::Grammar& grammar, std::uint64_t seed, const Grow
   if (!obstacles) return obstacles.failure();
   const render::PictureOptions picture{.width_px = command.width, .height_px = command.height, .view = kViews.at(command.view), .obstacles = *obstacles};
   if (isAnimation(command, ending)) return writeAnimation(*growing, command, picture);
-  const auto plant = growing->at(growing->endTime);
+  const auto plant = plantAtEnd(*growing);
   if (!plant) return plant.failure();
-  if (ending == ".json") return written(skeletonBytes(*plant), command.out);
-  const auto mesh = render::meshOf(*plant);
-  if (!mesh) return mesh.failure();
-  for (const std::string& note : mesh->notes) std::fprintf(stderr, "axil: note: %s\n", note.c_str());
-  if (ending == ".png") return written(pictureBytes(*mesh, picture), command.out);
-  if (ending == ".glb") return written(render::glbBytes(*mesh, {.metresPerUnit = document::metresPer(command.unit).value_or(1)}), command.out);
-  if (ending == ".ply") return written(render::plyBytes(*mesh), command.out);
-  return writeObj(*mesh, command.out);
+  return writePlant(**plant, command, picture);
 }
 
 /// Whether OUT names something this command can write; asked before any work.

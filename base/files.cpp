@@ -1,5 +1,7 @@
 #include "base/files.hpp"
 
+#include "base/file_writer.hpp"
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -47,24 +49,40 @@ Result<std::string> readFile(const fs::path& path, std::uintmax_t limitBytes) {
   return content;
 }
 
-Result<void> writeFile(const fs::path& path, std::string_view content) {
-  if (auto made = makeFolder(path.parent_path()); !made) return made;
-  const fs::path aside = asideOf(path);
-  std::ofstream file(aside, std::ios::binary | std::ios::trunc);
-  if (!file) return unwritable(path, std::strerror(errno));
-  file.write(content.data(), static_cast<std::streamsize>(content.size()));
-  file.close();
-  std::error_code code;
-  if (!file) {
-    const std::string why = std::strerror(errno);
-    fs::remove(aside, code);
-    return unwritable(path, why);
-  }
-  fs::rename(aside, path, code);
-  if (!code) return {};
+FileWriter::FileWriter(fs::path path) : path_(std::move(path)), aside_(asideOf(path_)), state_(makeFolder(path_.parent_path())) {
+  if (!state_) return;
+  file_.open(aside_, std::ios::binary | std::ios::trunc);
+  if (!file_) state_ = unwritable(path_, std::strerror(errno));
+}
+
+FileWriter::~FileWriter() {
+  if (!file_.is_open()) return;
+  file_.close();
   std::error_code ignored;
-  fs::remove(aside, ignored);
-  return unwritable(path, code.message());
+  fs::remove(aside_, ignored);
+}
+
+void FileWriter::write(std::string_view piece) {
+  if (!state_) return;
+  file_.write(piece.data(), static_cast<std::streamsize>(piece.size()));
+  if (!file_) state_ = unwritable(path_, std::strerror(errno));
+}
+
+Result<void> FileWriter::finish() {
+  if (!state_) return state_;
+  file_.close();
+  std::error_code code;
+  if (!file_) state_ = unwritable(path_, std::strerror(errno));
+  else if (fs::rename(aside_, path_, code); code) state_ = unwritable(path_, code.message());
+  std::error_code ignored;
+  if (!state_) fs::remove(aside_, ignored);
+  return state_;
+}
+
+Result<void> writeFile(const fs::path& path, std::string_view content) {
+  FileWriter file(path);
+  file.write(content);
+  return file.finish();
 }
 
 StagingFolder::StagingFolder(fs::path target, fs::path staging) : target_(std::move(target)), staging_(std::move(staging)) {}

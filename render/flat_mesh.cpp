@@ -24,11 +24,25 @@ struct Counts {
   std::size_t triangles = 0;
 };
 
-Counts countsOf(const PlantMesh& mesh) {
-  Counts counts{mesh.stems.positions.size() + mesh.faces.positions.size(), mesh.triangleCount()};
+Counts countsOfModels(const PlantMesh& mesh) {
+  Counts counts;
   for (const OrganModel& model : mesh.models)
-    for (const ModelPart& part : model.parts) counts.vertices += part.mesh.positions.size() * model.placements.size();
+    for (const ModelPart& part : model.parts) {
+      counts.vertices += part.mesh.positions.size() * model.placements.size();
+      counts.triangles += part.mesh.triangles.size() / 3 * model.placements.size();
+    }
   return counts;
+}
+
+FlatMesh withRoomFor(std::size_t vertices, std::size_t triangles) {
+  FlatMesh flat;
+  flat.positions.reserve(vertices);
+  flat.normals.reserve(vertices);
+  flat.colours.reserve(vertices);
+  flat.materials.reserve(vertices);
+  flat.triangles.reserve(triangles * 3);
+  flat.sources.reserve(triangles);
+  return flat;
 }
 
 void append(FlatMesh& flat, const ModelPart& part, const Placement& at, const glm::vec3& colour) {
@@ -60,23 +74,28 @@ void append(FlatMesh& flat, const StemMesh& part, Tint tint) {
   }
 }
 
-}  // namespace
-
-FlatMesh flattened(const PlantMesh& mesh, Tint tint) {
-  const Counts counts = countsOf(mesh);
-  FlatMesh flat;
-  flat.positions.reserve(counts.vertices);
-  flat.normals.reserve(counts.vertices);
-  flat.colours.reserve(counts.vertices);
-  flat.materials.reserve(counts.vertices);
-  flat.triangles.reserve(counts.triangles * 3);
-  flat.sources.reserve(counts.triangles);
-  append(flat, mesh.stems, Tint::None);
-  append(flat, mesh.faces, tint);
+void appendModels(FlatMesh& flat, const PlantMesh& mesh, Tint tint) {
   for (const OrganModel& model : mesh.models)
     for (const Placement& at : model.placements)
       for (const ModelPart& part : model.parts)
         append(flat, part, at, mesh.materials[static_cast<std::size_t>(part.material)].colour * tintOf(at.organ, tint));
+}
+
+}  // namespace
+
+FlatMesh flattenedModels(const PlantMesh& mesh, Tint tint) {
+  const Counts counts = countsOfModels(mesh);
+  FlatMesh flat = withRoomFor(counts.vertices, counts.triangles);
+  appendModels(flat, mesh, tint);
+  return flat;
+}
+
+FlatMesh flattened(const PlantMesh& mesh, Tint tint) {
+  const std::size_t vertices = countsOfModels(mesh).vertices + mesh.stems.positions.size() + mesh.faces.positions.size();
+  FlatMesh flat = withRoomFor(vertices, mesh.triangleCount());
+  append(flat, mesh.stems, Tint::None);
+  append(flat, mesh.faces, tint);
+  appendModels(flat, mesh, tint);
   return flat;
 }
 

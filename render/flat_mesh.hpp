@@ -18,6 +18,9 @@ struct FlatMesh {
 /// Whether leaves of one model differ a little in colour, as in nature. The difference depends on the organ's id alone.
 enum class Tint { None, Natural };
 
+/// The copies of models alone, without stems and faces.
+[[nodiscard]] FlatMesh flattenedModels(const PlantMesh& mesh, Tint tint = Tint::None);
+
 [[nodiscard]] FlatMesh flattened(const PlantMesh& mesh, Tint tint = Tint::None);
 
 }  // namespace axil::render

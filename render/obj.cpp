@@ -1,5 +1,7 @@
 #include "render/mesh_files.hpp"
 
+#include "base/file_writer.hpp"
+#include "base/files.hpp"
 #include "base/text.hpp"
 #include "render/colour.hpp"
 #include "render/flat_mesh.hpp"
@@ -10,6 +12,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <span>
 #include <string_view>
 
 namespace axil::render {
@@ -34,15 +37,15 @@ std::string asWord(std::string name) {
   return name.empty() ? "unnamed" : name;
 }
 
-/// A triangle; its corners' positions and normals have the same numbers.
-void appendFace(std::string& text, const std::uint32_t* corners) {
+/// A triangle; its corners' positions and normals have the same numbers, counted from `first`.
+void appendFace(std::string& text, const std::uint32_t* corners, std::uint32_t first) {
   std::array<char, 4 + 6 * (longestNumber + 2)> line;
   char* at = line.data();
   *at++ = 'f';
   for (int k = 0; k < 3; ++k) {
     *at++ = ' ';
     const char* const number = at;
-    at = writeWhole(at, corners[k] + 1);
+    at = writeWhole(at, corners[k] + first);
     const char* const end = at;
     *at++ = '/';
     *at++ = '/';
@@ -52,23 +55,66 @@ void appendFace(std::string& text, const std::uint32_t* corners) {
   text.append(line.data(), at);
 }
 
+/// A stretch of the file's vertices and triangles, seen where it is.
+struct Stretch {
+  std::span<const glm::vec3> positions;
+  std::span<const glm::vec3> normals;
+  std::span<const glm::vec3> colours;
+  std::span<const std::uint32_t> triangles;  ///< corners counted from the stretch's first vertex
+  std::span<const TriangleSource> sources;
+  std::size_t firstVertex = 0;
+  std::size_t firstTriangle = 0;
+};
+
+/// The plant as the file has it: stems, faces, then every copy of a model spelled out. No copy of the first two is made.
+class Stretches {
+ public:
+  explicit Stretches(const PlantMesh& mesh) : models_(flattenedModels(mesh)) {
+    add(mesh.stems);
+    add(mesh.faces);
+    add(models_);
+  }
+  Stretches(const Stretches&) = delete;
+
+  [[nodiscard]] const std::array<Stretch, 3>& all() const { return all_; }
+  [[nodiscard]] std::size_t triangleCount() const { return triangles_; }
+  [[nodiscard]] const Stretch& ofTriangle(std::size_t t) const { return t < all_[1].firstTriangle ? all_[0] : t < all_[2].firstTriangle ? all_[1] : all_[2]; }
+  [[nodiscard]] const TriangleSource& source(std::size_t t) const {
+    const Stretch& stretch = ofTriangle(t);
+    return stretch.sources[t - stretch.firstTriangle];
+  }
+
+ private:
+  template <class Mesh>
+  void add(const Mesh& mesh) {
+    all_[count_++] = {mesh.positions, mesh.normals, mesh.colours, mesh.triangles, mesh.sources, vertices_, triangles_};
+    vertices_ += mesh.positions.size();
+    triangles_ += mesh.sources.size();
+  }
+
+  FlatMesh models_;
+  std::array<Stretch, 3> all_;
+  std::size_t count_ = 0, vertices_ = 0, triangles_ = 0;
+};
+
 /// The mean colour of what each material covers: stems are coloured by vertex, which OBJ cannot say.
-std::vector<glm::vec3> meanColours(const PlantMesh& mesh, const FlatMesh& flat) {
+std::vector<glm::vec3> meanColours(const PlantMesh& mesh, const Stretches& stretches) {
   std::vector<glm::dvec3> sums(mesh.materials.size(), glm::dvec3(0));
   std::vector<double> counts(mesh.materials.size(), 0);
-  for (std::size_t i = 0; i < flat.colours.size(); ++i) {
-    const auto m = static_cast<std::size_t>(flat.materials[i]);
-    sums[m] += glm::dvec3(flat.colours[i]);
-    counts[m] += 1;
-  }
+  for (const Stretch& stretch : stretches.all())
+    for (std::size_t i = 0; i < stretch.triangles.size(); ++i) {
+      const auto m = static_cast<std::size_t>(stretch.sources[i / 3].material);
+      sums[m] += glm::dvec3(stretch.colours[stretch.triangles[i]]);
+      counts[m] += 1;
+    }
   std::vector<glm::vec3> means;
   for (std::size_t m = 0; m < sums.size(); ++m) means.push_back(counts[m] > 0 ? glm::vec3(sums[m] / counts[m]) : mesh.materials[m].colour);
   return means;
 }
 
-std::string mtlOf(const PlantMesh& mesh, const FlatMesh& flat) {
+std::string mtlOf(const PlantMesh& mesh, const Stretches& stretches) {
   std::string text = "# Colours are sRGB.\n";
-  const std::vector<glm::vec3> colours = meanColours(mesh, flat);
+  const std::vector<glm::vec3> colours = meanColours(mesh, stretches);
   for (std::size_t m = 0; m < colours.size(); ++m) {
     const glm::dvec3 srgb = srgbFromLinear(colours[m]);
     text += "newmtl " + asWord(mesh.materials[m].name) + "\n";
@@ -78,20 +124,23 @@ std::string mtlOf(const PlantMesh& mesh, const FlatMesh& flat) {
 }
 
 /// Triangles in the order of the file: by organ, each organ's as they are (which is by material).
-std::vector<std::uint32_t> byOrgan(const FlatMesh& flat) {
-  std::int32_t last = 0;
-  for (const TriangleSource& source : flat.sources) last = std::max(last, source.organ.value);
-  std::vector<std::uint32_t> next(static_cast<std::size_t>(last) + 2, 0);
-  for (const TriangleSource& source : flat.sources) ++next[static_cast<std::size_t>(source.organ.value) + 1];
+std::vector<std::uint32_t> byOrgan(const Stretches& stretches) {
+  std::vector<std::uint32_t> next(2, 0);
+  for (const Stretch& stretch : stretches.all())
+    for (const TriangleSource& source : stretch.sources) {
+      const std::size_t place = static_cast<std::size_t>(source.organ.value) + 1;
+      if (place >= next.size()) next.resize(std::max(place + 1, 2 * next.size()), 0);
+      ++next[place];
+    }
   for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
-  std::vector<std::uint32_t> order(flat.sources.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[next[static_cast<std::size_t>(flat.sources[i].organ.value)]++] = static_cast<std::uint32_t>(i);
+  std::vector<std::uint32_t> order(stretches.triangleCount());
+  for (std::size_t i = 0; i < order.size(); ++i) order[next[static_cast<std::size_t>(stretches.source(i).organ.value)]++] = static_cast<std::uint32_t>(i);
   return order;
 }
 
-/// Appends `write(i, text)` for every i below `count`: threads write pieces, and each is appended when its turn has come.
-template <class Write>
-void appendAll(std::string& text, std::size_t count, const Write& write) {
+/// Puts `write(i, text)` for every i below `count`: threads write pieces, and each is put when its turn has come.
+template <class Put, class Write>
+void putEach(const Put& put, std::size_t count, const Write& write) {
   constexpr std::size_t atOnce = 8192;
   const std::size_t pieces = piecesFor(count, atOnce);
   std::atomic<std::size_t> next = 0, turn = 0;
@@ -101,44 +150,61 @@ void appendAll(std::string& text, std::size_t count, const Write& write) {
       piece.clear();
       for (std::size_t i = k * atOnce; i < std::min((k + 1) * atOnce, count); ++i) write(i, piece);
       for (std::size_t now = turn; now != k; now = turn) turn.wait(now);
-      text += piece;
+      put(piece);
       turn = k + 1;
       turn.notify_all();
     }
   });
 }
 
-double largestCoordinate(const FlatMesh& flat) {
+double largestCoordinate(const Stretches& stretches) {
   float largest = 0;
-  for (const glm::vec3& p : flat.positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  for (const Stretch& stretch : stretches.all())
+    for (const glm::vec3& p : stretch.positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   return largest;
 }
 
-std::string objOf(const PlantMesh& mesh, const FlatMesh& flat, const std::string& mtlName) {
-  const FixedText lengths = FixedText::forNumbersUpTo(largestCoordinate(flat)), directions(normalDecimals);
-  std::string text;
-  text.reserve(flat.positions.size() * 64 + flat.triangles.size() * 18 + 1024);  // pages that stay empty cost nothing
-  text += "# " + (mesh.name.empty() ? std::string("plant") : asWord(mesh.name)) + ", Y up\nmtllib " + mtlName + "\n";
-  appendAll(text, flat.positions.size(), [&](std::size_t i, std::string& to) { appendVector(to, "v", flat.positions[i], lengths); });
-  appendAll(text, flat.normals.size(), [&](std::size_t i, std::string& to) { appendVector(to, "vn", flat.normals[i], directions); });
-  const std::vector<std::uint32_t> order = byOrgan(flat);
-  appendAll(text, order.size(), [&](std::size_t i, std::string& to) {
-    const TriangleSource& source = flat.sources[order[i]];
-    const TriangleSource before = i == 0 ? TriangleSource{.organ = {}, .material = -1} : flat.sources[order[i - 1]];
+template <class Put>
+void putObj(const Put& put, const PlantMesh& mesh, const Stretches& stretches, const std::string& mtlName) {
+  const FixedText lengths = FixedText::forNumbersUpTo(largestCoordinate(stretches)), directions(normalDecimals);
+  put("# " + (mesh.name.empty() ? std::string("plant") : asWord(mesh.name)) + ", Y up\nmtllib " + mtlName + "\n");
+  for (const Stretch& stretch : stretches.all())
+    putEach(put, stretch.positions.size(), [&](std::size_t i, std::string& to) { appendVector(to, "v", stretch.positions[i], lengths); });
+  for (const Stretch& stretch : stretches.all())
+    putEach(put, stretch.normals.size(), [&](std::size_t i, std::string& to) { appendVector(to, "vn", stretch.normals[i], directions); });
+  const std::vector<std::uint32_t> order = byOrgan(stretches);
+  putEach(put, order.size(), [&](std::size_t i, std::string& to) {
+    const TriangleSource& source = stretches.source(order[i]);
+    const TriangleSource before = i == 0 ? TriangleSource{.organ = {}, .material = -1} : stretches.source(order[i - 1]);
     if (source.organ != before.organ) to += "g organ_" + std::to_string(source.organ.value) + "\n";
     if (source.material != before.material) to += "usemtl " + asWord(mesh.materials[static_cast<std::size_t>(source.material)].name) + "\n";
-    appendFace(to, flat.triangles.data() + 3 * static_cast<std::size_t>(order[i]));
+    const Stretch& stretch = stretches.ofTriangle(order[i]);
+    appendFace(to, stretch.triangles.data() + 3 * (order[i] - stretch.firstTriangle), static_cast<std::uint32_t>(stretch.firstVertex) + 1);
   });
-  return text;
+}
+
+Result<void> checkMtlName(const std::string& name) {
+  if (!name.empty() && name == asWord(name)) return {};
+  return fail(ErrorCode::BadInput, "an OBJ file cannot name its materials \"" + name + "\"; choose a file name without blanks and #");
 }
 
 }  // namespace
 
 Result<ObjFiles> objAndMtl(const PlantMesh& mesh, const std::string& mtlName) {
-  if (mtlName.empty() || mtlName != asWord(mtlName))
-    return fail(ErrorCode::BadInput, "an OBJ file cannot name its materials \"" + mtlName + "\"; choose a file name without blanks and #");
-  const FlatMesh flat = flattened(mesh);
-  return ObjFiles{.obj = objOf(mesh, flat, mtlName), .mtl = mtlOf(mesh, flat)};
+  if (const auto checked = checkMtlName(mtlName); !checked) return checked.failure();
+  const Stretches stretches(mesh);
+  ObjFiles files{.obj = {}, .mtl = mtlOf(mesh, stretches)};
+  putObj([&](std::string_view piece) { files.obj += piece; }, mesh, stretches, mtlName);
+  return files;
+}
+
+Result<void> writeObj(const PlantMesh& mesh, const std::filesystem::path& file) {
+  const std::filesystem::path library = file.parent_path() / (asWord(file.stem().string()) + ".mtl");
+  const Stretches stretches(mesh);
+  if (auto written = writeFile(library, mtlOf(mesh, stretches)); !written) return written;
+  FileWriter writer(file);
+  putObj([&](std::string_view piece) { writer.write(piece); }, mesh, stretches, library.filename().string());
+  return writer.finish();
 }
 
 }  // namespace axil::render

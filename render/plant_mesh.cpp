@@ -4,7 +4,6 @@
 #include "render/colour.hpp"
 #include "render/organ_models.hpp"
 #include "render/parallel.hpp"
-#include "render/stem_mesh.hpp"
 #include "render/tube.hpp"
 #include "render/turtle_shapes.hpp"
 
@@ -216,27 +215,37 @@ StemScale stemScaleOf(const Plant& plant, const PlantAxes& axes) {
   return scale;
 }
 
+/// The tubes of all pieces as one mesh, written by all threads.
+StemMesh meshOf(const std::vector<TubeRings>& pieces) {
+  std::vector<std::size_t> firstVertex{0}, firstTriangle{0};
+  for (const TubeRings& piece : pieces) {
+    firstVertex.push_back(firstVertex.back() + piece.vertexCount());
+    firstTriangle.push_back(firstTriangle.back() + piece.triangleCount());
+  }
+  StemMesh mesh = roomFor(firstVertex.back(), firstTriangle.back());
+  inParallel(pieces.size(), [&](std::size_t piece) { pieces[piece].sweepInto(mesh, firstVertex[piece], firstTriangle[piece]); });
+  return mesh;
+}
+
 Result<void> addStems(PlantMesh& mesh, const Plant& plant, Detail detail, std::size_t maximumTriangles) {
   const PlantAxes axes = axesOf(plant, Continuation::Straightest);
   const StemScale scale = stemScaleOf(plant, axes);
   const StemDrawer drawer(plant, axes, stemLooksOf(plant, mesh), scale);
   constexpr std::size_t axesAtOnce = 1024;
-  std::vector<StemMesh> pieces(piecesFor(axes.axes.size(), axesAtOnce));
+  std::vector<TubeRings> pieces(piecesFor(axes.axes.size(), axesAtOnce));
   std::atomic<std::size_t> triangles = 0;
   inParallel(pieces.size(), [&](std::size_t piece) {
-    TubeBuilder builder;
     for (std::size_t i = piece * axesAtOnce; i < std::min((piece + 1) * axesAtOnce, axes.axes.size()) && triangles <= maximumTriangles; ++i) {
-      const std::size_t before = builder.triangleCount();
+      const std::size_t before = pieces[piece].triangleCount();
       const TubePath path = drawer.pathOf(i);
-      builder.add(path, tubeDetailFor(detail, path.nodes.front().radius / scale.extent));
-      triangles += builder.triangleCount() - before;
+      pieces[piece].add(path, tubeDetailFor(detail, path.nodes.front().radius / scale.extent));
+      triangles += pieces[piece].triangleCount() - before;
     }
-    pieces[piece] = builder.take();
   });
   if (triangles > maximumTriangles)
     return fail(ErrorCode::LimitReached, "the stems alone have more than " + std::to_string(maximumTriangles) +
                                              " triangles; grow fewer steps or ask for a lower level of detail");
-  mesh.stems = joined(std::move(pieces));
+  mesh.stems = meshOf(pieces);
   return {};
 }
 

@@ -1,11 +1,14 @@
 #include "render/tube.hpp"
 
 #include "base/result.hpp"
+#include "render/parallel.hpp"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace axil::render {
@@ -144,14 +147,11 @@ TubeRing capRing(const TubeRing& end, int k, int count, double sign) {
   return ring;
 }
 
-/// A run with the rings of the balls at both ends; the poles themselves are vertices, not rings.
-std::vector<TubeRing> withRoundEnds(const std::vector<TubeRing>& run, int capRings) {
-  std::vector<TubeRing> rings;
-  rings.reserve(run.size() + 2 * static_cast<std::size_t>(std::max(capRings, 1)));
+/// Appends a run with the rings of the balls at both ends; the poles themselves are vertices, not rings.
+void appendWithRoundEnds(std::vector<TubeRing>& rings, const std::vector<TubeRing>& run, int capRings) {
   for (int k = capRings - 1; k >= 1; --k) rings.push_back(capRing(run.front(), k, capRings, -1));
   rings.insert(rings.end(), run.begin(), run.end());
   for (int k = 1; k < capRings; ++k) rings.push_back(capRing(run.back(), k, capRings, 1));
-  return rings;
 }
 
 /// The top of the ball whose outermost ring is `ring`: as far on as the ball's radius is more than its height there.
@@ -188,66 +188,118 @@ std::vector<std::vector<TubeRing>> centreLine(const TubePath& path, const TubeDe
   return runs;
 }
 
-void TubeBuilder::addRing(const TubeRing& ring, const glm::dvec3& normal) {
-  const glm::dvec3 across = glm::cross(ring.tangent, normal);
-  const double lean = std::sin(ring.tilt), out = std::cos(ring.tilt);
-  for (const glm::dvec2& side : circle_) {
-    const glm::dvec3 radial = normal * side.x + across * side.y;
-    mesh_.positions.emplace_back(ring.at + radial * ring.radius);
-    mesh_.normals.emplace_back(radial * out + ring.tangent * lean);
-    mesh_.colours.push_back(ring.colour);
-  }
-}
+namespace {
 
-/// A vertex on the centre line that closes an end; returns its index.
-std::uint32_t TubeBuilder::addPole(const glm::dvec3& at, const glm::dvec3& normal, const glm::vec3& colour) {
-  mesh_.positions.emplace_back(at);
-  mesh_.normals.emplace_back(normal);
-  mesh_.colours.push_back(colour);
-  return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
-}
-
-void TubeBuilder::addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, const TriangleSource& source) {
-  mesh_.triangles.push_back(a);
-  mesh_.triangles.push_back(b);
-  mesh_.triangles.push_back(c);
-  mesh_.sources.push_back(source);
-}
-
-void TubeBuilder::sweep(std::span<const TubeRing> rings, std::span<const TriangleSource> segments) {
-  const auto sides = static_cast<std::uint32_t>(circle_.size());
-  const auto sourceOf = [&](const TubeRing& ring) { return segments[static_cast<std::size_t>(ring.segment)]; };
-  const auto next = [&](std::uint32_t s) { return s + 1 == sides ? 0 : s + 1; };
-
-  const TubeRing& base = rings.front();
-  const TubeRing& tip = rings.back();
-  const std::uint32_t basePole = addPole(poleOf(base, -1), -base.tangent, base.colour);
-  std::uint32_t lower = basePole + 1;
-  glm::dvec3 normal = anyNormal(base.tangent);
-  addRing(base, normal);
-  for (std::uint32_t s = 0; s < sides; ++s) addTriangle(basePole, lower + next(s), lower + s, sourceOf(base));
-  for (std::size_t i = 1; i < rings.size(); ++i, lower += sides) {
-    normal = carriedNormal(rings[i - 1], rings[i], normal);
-    addRing(rings[i], normal);
+/// The sides of a tube around its centre line, cosine and sine; kept while the number of sides stays.
+class Circle {
+ public:
+  const std::vector<glm::dvec2>& of(std::uint32_t sides) {
+    if (sides_.size() == sides) return sides_;
+    sides_.resize(sides);
     for (std::uint32_t s = 0; s < sides; ++s) {
-      addTriangle(lower + s, lower + next(s), lower + sides + next(s), sourceOf(rings[i]));
-      addTriangle(lower + s, lower + sides + next(s), lower + sides + s, sourceOf(rings[i]));
+      const double angle = 2 * std::numbers::pi * s / sides;
+      sides_[s] = {std::cos(angle), std::sin(angle)};
+    }
+    return sides_;
+  }
+
+ private:
+  std::vector<glm::dvec2> sides_;
+};
+
+/// Writes one run after the other into arrays that have room.
+class Sweeper {
+ public:
+  Sweeper(StemMesh& mesh, std::size_t firstVertex, std::size_t firstTriangle)
+      : positions_(mesh.positions.data() + firstVertex), normals_(mesh.normals.data() + firstVertex), colours_(mesh.colours.data() + firstVertex),
+        corners_(mesh.triangles.data() + 3 * firstTriangle), sources_(mesh.sources.data() + firstTriangle), vertex_(static_cast<std::uint32_t>(firstVertex)) {}
+
+  void sweep(std::span<const TubeRing> rings, std::span<const TriangleSource> sources, const std::vector<glm::dvec2>& circle) {
+    const auto sides = static_cast<std::uint32_t>(circle.size());
+    const TubeRing& base = rings.front();
+    const TubeRing& tip = rings.back();
+    const std::uint32_t basePole = pole(poleOf(base, -1), -base.tangent, base.colour);
+    std::uint32_t lower = basePole + 1;
+    glm::dvec3 normal = anyNormal(base.tangent);
+    ring(base, normal, circle);
+    for (std::uint32_t s = 0; s < sides; ++s) triangle(basePole, lower + next(s, sides), lower + s, sources.front());
+    for (std::size_t i = 1; i < rings.size(); ++i, lower += sides) {
+      normal = carriedNormal(rings[i - 1], rings[i], normal);
+      ring(rings[i], normal, circle);
+      for (std::uint32_t s = 0; s < sides; ++s) {
+        triangle(lower + s, lower + next(s, sides), lower + sides + next(s, sides), sources[i]);
+        triangle(lower + s, lower + sides + next(s, sides), lower + sides + s, sources[i]);
+      }
+    }
+    const std::uint32_t tipPole = pole(poleOf(tip, 1), tip.tangent, tip.colour);
+    for (std::uint32_t s = 0; s < sides; ++s) triangle(tipPole, lower + s, lower + next(s, sides), sources.back());
+  }
+
+ private:
+  static std::uint32_t next(std::uint32_t s, std::uint32_t sides) { return s + 1 == sides ? 0 : s + 1; }
+
+  void vertex(const glm::dvec3& at, const glm::dvec3& normal, const glm::vec3& colour) {
+    *positions_++ = glm::vec3(at);
+    *normals_++ = glm::vec3(normal);
+    *colours_++ = colour;
+    ++vertex_;
+  }
+  void ring(const TubeRing& ring, const glm::dvec3& normal, const std::vector<glm::dvec2>& circle) {
+    const glm::dvec3 across = glm::cross(ring.tangent, normal);
+    const double lean = std::sin(ring.tilt), out = std::cos(ring.tilt);
+    for (const glm::dvec2& side : circle) {
+      const glm::dvec3 radial = normal * side.x + across * side.y;
+      vertex(ring.at + radial * ring.radius, radial * out + ring.tangent * lean, ring.colour);
     }
   }
-  const std::uint32_t tipPole = addPole(poleOf(tip, 1), tip.tangent, tip.colour);
-  for (std::uint32_t s = 0; s < sides; ++s) addTriangle(tipPole, lower + s, lower + next(s), sourceOf(tip));
+  /// A vertex on the centre line that closes an end; returns its number.
+  std::uint32_t pole(const glm::dvec3& at, const glm::dvec3& normal, const glm::vec3& colour) {
+    vertex(at, normal, colour);
+    return vertex_ - 1;
+  }
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, const TriangleSource& source) {
+    *corners_++ = a;
+    *corners_++ = b;
+    *corners_++ = c;
+    *sources_++ = source;
+  }
+
+  glm::vec3* positions_;
+  glm::vec3* normals_;
+  glm::vec3* colours_;
+  std::uint32_t* corners_;
+  TriangleSource* sources_;
+  std::uint32_t vertex_;
+};
+
+}  // namespace
+
+void TubeRings::add(const TubePath& path, const TubeDetail& detail) {
+  AXIL_ASSERT(path.nodes.size() >= 2 && path.segments.size() + 1 == path.nodes.size(), "a tube has two nodes, and a segment between each two");
+  for (const std::vector<TubeRing>& run : centreLine(path, detail)) {
+    const std::size_t first = rings_.size();
+    appendWithRoundEnds(rings_, run, detail.capRings);
+    for (std::size_t i = first; i < rings_.size(); ++i) sources_.push_back(path.segments[static_cast<std::size_t>(rings_[i].segment)]);
+    const std::size_t count = rings_.size() - first, sides = static_cast<std::size_t>(detail.sides);
+    runs_.push_back({first, count, static_cast<std::uint32_t>(sides)});
+    vertices_ += count * sides + 2;
+    triangles_ += count * sides * 2;
+  }
 }
 
-void TubeBuilder::add(const TubePath& path, const TubeDetail& detail) {
-  AXIL_ASSERT(path.nodes.size() >= 2 && path.segments.size() + 1 == path.nodes.size(), "a tube has two nodes, and a segment between each two");
-  if (circle_.size() != static_cast<std::size_t>(detail.sides)) {
-    circle_.resize(static_cast<std::size_t>(detail.sides));
-    for (int s = 0; s < detail.sides; ++s) {
-      const double angle = 2 * std::numbers::pi * s / detail.sides;
-      circle_[static_cast<std::size_t>(s)] = {std::cos(angle), std::sin(angle)};
-    }
-  }
-  for (const std::vector<TubeRing>& run : centreLine(path, detail)) sweep(withRoundEnds(run, detail.capRings), path.segments);
+void TubeRings::sweepInto(StemMesh& mesh, std::size_t firstVertex, std::size_t firstTriangle) const {
+  Sweeper sweeper(mesh, firstVertex, firstTriangle);
+  Circle circle;
+  for (const Run& run : runs_)
+    sweeper.sweep(std::span(rings_).subspan(run.firstRing, run.rings), std::span(sources_).subspan(run.firstRing, run.rings), circle.of(run.sides));
+}
+
+StemMesh roomFor(std::size_t vertices, std::size_t triangles) {
+  StemMesh mesh;
+  const std::array<std::function<void()>, 5> arrays{[&] { mesh.triangles.resize(3 * triangles); }, [&] { mesh.positions.resize(vertices); },
+                                                    [&] { mesh.normals.resize(vertices); }, [&] { mesh.colours.resize(vertices); }, [&] { mesh.sources.resize(triangles); }};
+  inParallel(arrays.size(), [&](std::size_t k) { arrays[k](); });
+  return mesh;
 }
 
 }  // namespace axil::render

@@ -54,20 +54,30 @@ struct TubeRing {
 /// The centre line of `path`, cut where a ball joint is needed: each run is swept and capped by itself.
 [[nodiscard]] std::vector<std::vector<TubeRing>> centreLine(const TubePath& path, const TubeDetail& detail);
 
-/// Collects tubes into one mesh.
-class TubeBuilder {
+/// Tubes as rings, before they are triangles: how large their mesh will be is known before it is made, so that many of these can be
+/// written side by side into one mesh.
+class TubeRings {
  public:
   void add(const TubePath& path, const TubeDetail& detail);
-  [[nodiscard]] std::size_t triangleCount() const { return mesh_.triangles.size() / 3; }
-  [[nodiscard]] StemMesh take() { return std::move(mesh_); }
+  [[nodiscard]] std::size_t vertexCount() const { return vertices_; }
+  [[nodiscard]] std::size_t triangleCount() const { return triangles_; }
+  /// Writes the triangles into `mesh`, whose arrays have room for them, from vertex and triangle number so and so on.
+  void sweepInto(StemMesh& mesh, std::size_t firstVertex, std::size_t firstTriangle) const;
 
  private:
-  void sweep(std::span<const TubeRing> rings, std::span<const TriangleSource> segments);
-  void addRing(const TubeRing& ring, const glm::dvec3& normal);
-  std::uint32_t addPole(const glm::dvec3& at, const glm::dvec3& normal, const glm::vec3& colour);
-  void addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, const TriangleSource& source);
-  StemMesh mesh_;
-  std::vector<glm::dvec2> circle_;   ///< cos and sin of the sides, kept from tube to tube
+  struct Run {
+    std::size_t firstRing = 0;
+    std::size_t rings = 0;
+    std::uint32_t sides = 8;
+  };
+  std::vector<TubeRing> rings_;
+  std::vector<TriangleSource> sources_;  ///< one a ring
+  std::vector<Run> runs_;
+  std::size_t vertices_ = 0;
+  std::size_t triangles_ = 0;
 };
+
+/// Room for so many vertices and triangles, made by all threads.
+[[nodiscard]] StemMesh roomFor(std::size_t vertices, std::size_t triangles);
 
 }  // namespace axil::render

@@ -1,5 +1,7 @@
 #include "base/files.hpp"
 
+#include "base/file_writer.hpp"
+
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -32,6 +34,25 @@ TEST_F(Files, MissingFoldersAndLargeFilesAreRefusedByName) {
   EXPECT_EQ(readFile(folder).error().code, ErrorCode::Unreadable);
   ASSERT_TRUE(writeFile(folder / "big", std::string(100, 'x')));
   EXPECT_EQ(readFile(folder / "big", 99).error().code, ErrorCode::LimitReached);
+}
+
+TEST_F(Files, AFileInPiecesIsThereWhenItIsFinishedAndNotBefore) {
+  {
+    FileWriter file(folder / "sub" / "pieces");
+    file.write("one ");
+    file.write("two");
+    EXPECT_FALSE(fs::exists(folder / "sub" / "pieces"));
+    ASSERT_TRUE(file.finish());
+  }
+  EXPECT_EQ(*readFile(folder / "sub" / "pieces"), "one two");
+  {
+    FileWriter leftAlone(folder / "other");
+    leftAlone.write("x");
+  }
+  FileWriter inAFile(folder / "sub" / "pieces" / "a");
+  inAFile.write("x");
+  EXPECT_EQ(inAFile.finish().error().code, ErrorCode::Unwritable);
+  EXPECT_EQ(entries(), 1u);
 }
 
 TEST_F(Files, AStagingFolderThatIsNotPublishedLeavesNoTrace) {

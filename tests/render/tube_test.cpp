@@ -24,9 +24,11 @@ TubePath pathThrough(const std::vector<glm::dvec3>& nodes, double radius, double
 }
 
 StemMesh tubeOf(const TubePath& path, const TubeDetail& detail = {}) {
-  TubeBuilder builder;
-  builder.add(path, detail);
-  return builder.take();
+  TubeRings rings;
+  rings.add(path, detail);
+  StemMesh mesh = roomFor(rings.vertexCount(), rings.triangleCount());
+  rings.sweepInto(mesh, 0, 0);
+  return mesh;
 }
 
 /// Every edge is used once in each direction: closed, and oriented alike everywhere.
