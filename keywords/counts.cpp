@@ -9,8 +9,6 @@ namespace axil::keywords {
 
 namespace {
 
-bool isCountable(const Concept& noun) { return noun.columns.at("countable") == "yes"; }
-
 bool isWhole(double number) { return number == std::floor(number); }
 
 bool isCount(const NumberRange& range) { return range.high <= 999 && isWhole(range.low) && isWhole(range.high); }
@@ -35,6 +33,8 @@ constexpr CountedWord countedWords[] = {
 
 }  // namespace
 
+bool isCountable(const Concept& noun) { return noun.columns.at("countable") == "yes"; }
+
 void ParagraphReader::addCount(std::size_t first, std::size_t end, const std::string& organ, const std::string& piece, const NumberRange& range, const std::string& unit) {
   Trait trait = traitAt(first, end, organ, unit == "merous" ? "merosity" : "count");
   trait.low = range.low;
@@ -42,6 +42,7 @@ void ParagraphReader::addCount(std::size_t first, std::size_t end, const std::st
   trait.minimum = range.minimum;
   trait.maximum = range.maximum;
   trait.unit = unit == "merous" ? "" : unit;
+  if (scope_.stranger && (scope_.organ == nullptr || scope_.organ->name == organ)) return;
   trait.part = piece;
   trait.qualifier = range.open ? "more than" : qualifierBefore(first);
   if (scope_.organ != nullptr && scope_.organ->name == organ) trait.which = scope_.which;
@@ -92,6 +93,8 @@ std::size_t ParagraphReader::readLeavesPerNode(std::size_t i, const NumberRange&
   const std::size_t perNode = afterPerNode(at);
   const bool othersPerNode = others && perNode != 0 && at == range.end;  // "branches 2 per node"
   if ((perNode == 0 && !isGathered(at)) || !(othersPerNode || leafIsMeant(range.end, at))) return 0;
+  // 8-12片聚生莖頂: all of them, and not at one node.
+  if (perNode == 0 && isHan(at) && isAny(found_[at].end, {"莖", "茎", "枝", "於", "于", "稈", "秆", "幹", "干"}) && !isAny(at, {"輪", "轮"}) && range.high > 5) return 0;
   addCount(i, perNode != 0 ? perNode : found_[at].end, othersPerNode ? organ : std::string("leaf"), "", range, "per node");
   evidence_ += 1;
   if (perNode == 0) return at;  // the arrangement itself is read next
@@ -146,7 +149,7 @@ ParagraphReader::Measure ParagraphReader::measureAt(std::size_t i) const {
     std::size_t end = is(i + 1, "of") ? i + 2 : i + 1;
     return {end, "pairs"};
   }
-  if (is(i, "on") && isAny(i + 1, {"each", "either"}) && is(i + 2, "side")) return {i + 3, "per side"};
+  if (is(i, "on") && isAny(i + 1, {"each", "either", "both"}) && isAny(i + 2, {"side", "sides"})) return {i + 3, "per side"};
   if (is(i, "per") && is(i + 1, "side")) return {i + 2, "per side"};
   if (isAny(i, {"per", "in"}) && (isAny(i + 1, {"locule", "cell"}) || (is(i + 1, "each") && isAny(i + 2, {"locule", "cell"})))) return {is(i + 1, "each") ? i + 3 : i + 2, "per locule"};
   if (isAny(i, {"枚", "片", "個", "个", "朵", "條", "条", "根", "瓣", "粒", "顆", "颗"})) return {i + 1, ""};
@@ -165,6 +168,7 @@ ParagraphReader::Counted ParagraphReader::countedBy(std::size_t i) const {
   if (isAny(i, {"室"})) return {"ovary", "locule", "", i + 1};
   if (isAny(i, {"齒", "齿"}) && !isAny(i + 1, {"狀", "状"})) return {"", "tooth", "", i + 1};
   if (isAny(i, {"脈", "脉"})) return {"vein", "", "", i + 1};
+  if (isAny(i, {"節", "节"}) && !isAny(i + 1, {"間", "间", "莢", "荚"}) && scope_.organ != nullptr && scope_.organ->name == "stem") return {"node", "", "", i + 1};
   if (isAny(i, {"出"}) && isAny(i + 1, {"脈", "脉"})) return {"vein", "", "", i + 2};
   return {};
 }
@@ -187,7 +191,8 @@ std::size_t ParagraphReader::readCountedWord(std::size_t i, const NumberRange& r
   if (isWordWithNumber(range.end) == false && counted.organ.empty() && isOneOf(organ, {"plant", "vein", "bark"})) return 0;
   if (!isNegated(i)) {
     const std::string owner = isMember || cellsOfOvary ? scope_.organ->name : organ;
-    const bool valves = owner == "fruit" && counted.piece == "lobe" && isHan(counted.end - 1);  // 蒴果三裂
+    const bool opens = scope_.organEnd > 1 && !isAny(scope_.organEnd - 2, {"核", "漿", "浆", "堅", "坚", "瘦"});
+    const bool valves = owner == "fruit" && counted.piece == "lobe" && isHan(counted.end - 1) && opens;  // 蒴果三裂
     addCount(i, counted.end, owner, valves ? "valve" : counted.piece, range, counted.unit);
     evidence_ += 1;
     if (counted.piece == "lobe" && !valves) addLobedShape(i, counted.end, range);
@@ -204,6 +209,7 @@ std::size_t ParagraphReader::readCountedWord(std::size_t i, const NumberRange& r
 
 // A blade cut into lobes has a shape or a margin by that: "palmately 5-lobed", "3-lobed", "5-9-lobed".
 void ParagraphReader::addLobedShape(std::size_t i, std::size_t end, const NumberRange& range) {
+  if (scope_.stranger || result_.traits.empty()) return;
   const std::string organ = result_.traits.back().organ;
   if (!isOneOf(organ, {"leaf", "leaflet"}) || (scope_.piece != nullptr && scope_.piece->name != "blade")) return;
   const bool palmate = i > 0 && (is(i - 1, "palmately") || (i > 1 && is(i - 2, "掌") && isAny(i - 1, {"狀", "状"})));
@@ -220,7 +226,7 @@ void ParagraphReader::addLobedShape(std::size_t i, std::size_t end, const Number
 }
 
 bool ParagraphReader::isWordWithNumber(std::size_t i) const {
-  return (is(i, "-") && i + 1 < tokens_.size() && tokens_[i + 1].kind == TokenKind::Word) || isAny(i, {"*", "/", "%", "°", "裂", "出", "脈", "脉", "times", "倍", "回", "月", "年", "數", "数", "x", "層", "层", "列", "輪", "轮", "系", "series", "rows", "ranks", "tiers", "layers", "cycles", "型", "叉", "側", "侧", "面", "端", "邊", "边", "旁", "行", "圈"}) ||
+  return (is(i, "-") && i + 1 < tokens_.size() && tokens_[i + 1].kind == TokenKind::Word) || isAny(i, {"*", "/", "%", "°", "裂", "出", "脈", "脉", "times", "倍", "回", "月", "年", "數", "数", "x", "層", "层", "列", "輪", "轮", "系", "series", "rows", "ranks", "tiers", "layers", "cycles", "型", "叉", "側", "侧", "面", "端", "邊", "边", "旁", "行", "圈", "體", "体", "強", "强"}) ||
          (i < found_.size() && found_[i].conceptAs("dimension") != nullptr && !isHan(i));
 }
 
@@ -233,6 +239,14 @@ std::size_t ParagraphReader::beforeCount(std::size_t i) const {
           !qualifierOf(tokens_[before - 1].text).empty() || beforeEach(before) != before))
     before = std::min(before - 1, beforeEach(before));
   return before;
+}
+
+// "phyllaries in 2 series, 10-14", 總苞片2層，10-14枚: behind the number of rows that of all.
+bool ParagraphReader::isBehindRows(std::size_t before) const {
+  if (before < 3 || !isAny(before - 1, {",", "、"}) || !isAny(before - 2, {"層", "层", "輪", "轮", "列", "series", "rows", "whorls", "cycles"})) return false;
+  const std::size_t from = scope_.organEnd + (is(scope_.organEnd, "in") ? 1 : 0);
+  const std::optional<NumberRange> rows = rangeAt(tokens_, from);
+  return rows && rows->end + 2 == before;
 }
 
 // Where 每 begins in 每室10粒, 每側40枚; `i` itself where it does not.
@@ -272,6 +286,7 @@ std::size_t ParagraphReader::readCountGoingOn(std::size_t i, const NumberRange& 
   const Measure measure = measureAt(range.end);
   const Concept* next = nounAt(measure.end);
   if (next != nullptr && next->name != lastCount_.organ && isCountable(*next)) return 0;
+  if (scope_.stranger) return measure.end;
   const LastCount last = lastCount_;
   addCount(i, measure.end, last.organ, last.piece, range, measure.unit.empty() ? last.unit : measure.unit);
   if (std::string& qualifier = result_.traits.back().qualifier; qualifier.empty()) qualifier = "sometimes";  // 間有十三枚
@@ -333,74 +348,6 @@ std::size_t ParagraphReader::readDivisions(std::size_t i) {
       return last;
     }
   return 0;
-}
-
-// "petals 5", "leaflets 5-8 pairs", 小葉8-12對, 有花3-7朵. A number that goes on as a size counts nothing.
-std::size_t ParagraphReader::readCountOfOrganBefore(std::size_t i, const NumberRange& range) {
-  if (scope_.organ == nullptr || !scope_.organInSentence) return 0;
-  const Concept& noun = scope_.piece != nullptr && scope_.piece->name != "blade" ? *scope_.piece : *scope_.organ;
-  if (isWordWithNumber(range.end)) return 0;
-  if (last_.kept && last_.category != nullptr && last_.category->property == "venation" && last_.end == i) {  // 掌狀脈5-7條
-    const Measure measure = measureAt(range.end);
-    addCount(i, measure.end, "vein", "", range, measure.unit);
-    return measure.end;
-  }
-  // "Flowers solitary or 2-3 together", 花單生或2-3朵簇生.
-  const std::size_t before = beforeCount(i);
-  const bool orSolitary = last_.kept && last_.end != 0 && before == last_.end + 1 && isAny(last_.end, {"or", "或", "to", "至"}) && !result_.traits.empty() && result_.traits.back().value == "solitary";
-  // 徑1公分，2-4個腋生; 常3-5朵簇生枝端: how many stand together.
-  const Measure counter = measureAt(range.end);
-  const bool together = isHan(range.end) && counter.end > range.end && scope_.subjectInClause && before > 0 && tokens_[before - 1].kind == TokenKind::Sign &&
-                        ((counter.end < tokens_.size() && found_[counter.end] && (found_[counter.end].as("arrangement") || found_[counter.end].as("position"))) || isAny(counter.end, {"着", "著", "生", "聚"}));
-  if (!isCountable(noun) || (before != scope_.organEnd && !orSolitary && !together)) return 0;
-  if (scope_.place != nullptr) return 0;
-  const Measure measure = measureAt(range.end);
-  const Concept* next = nounAt(measure.end);
-  if (!isHan(measure.end) && isGathered(measure.end)) return 0;  // "in 1 or more clusters of 3-6"
-  if (next != nullptr && isHan(measure.end) && next != scope_.organ && isCountable(*next)) return 0;  // 具3花
-  const bool ofPiece = &noun == scope_.piece;
-  const Concept* per = is(measure.end, "per") ? nounAt(measure.end + 1) : nullptr;
-  const std::string unit = !measure.unit.empty() ? measure.unit : per != nullptr ? "per " + per->name : unitOfEach(i);
-  addCount(i, measure.end, scope_.organ->name, ofPiece ? noun.name : "", range, unit);
-  evidence_ += ofPiece && found_[scope_.organEnd - 1].as("organ") ? 0.5 : 1;
-  return per != nullptr ? found_[measure.end + 1].end : measure.end;
-}
-
-// "5 petals", "10 pairs of leaflets", 5枚花瓣, 具3～7花.
-std::size_t ParagraphReader::readCountOfOrganAfter(std::size_t i, const NumberRange& range) {
-  const Measure measure = measureAt(range.end);
-  std::size_t at = measure.end;
-  if (isAny(at, {"的"})) ++at;
-  const auto isAdjective = [&](std::size_t k) { return k < tokens_.size() && (hasTraitMeaning(k) || (!isHan(k) && found_[k].conceptAs("which") != nullptr)) && nounAt(k) == nullptr && (!isHan(k) || isAny(found_[k].end, {"的", "之"})); };
-  while (isAdjective(at) && at < measure.end + 3) at = found_[at].end;  // "5 white petals"
-  if (at > measure.end && isAny(at, {"的", "之"})) ++at;
-  const bool with = i > 0 && isAny(i - 1, {"with", "having", "bearing"});
-  for (int unknown = 0; with && unknown < 2 && at < tokens_.size() && tokens_[at].kind == TokenKind::Word && !found_[at] && !isFiller(tokens_[at].text); ++unknown) ++at;  // "7-13 prominent parallel veins"
-  const Concept* noun = nounAt(at);
-  if (noun == nullptr || isAny(i, {"one", "一"})) return 0;
-  const std::string& role = noun->columns.at("role");
-  const bool inside = scope_.organ != nullptr && isOneOf(scope_.organ->name, {"inflorescence", "spikelet"});
-  const bool flowersHan = isHan(at) && noun->name == "flower" && inside;
-  const bool divided = isHan(at) && noun->name == "leaflet" && i >= 2 && isAny(i - 2, {"掌", "羽"}) && isAny(i - 1, {"狀", "状"});
-  if (divided && !found_[i - 2].as("type")) {  // 掌狀5小葉
-    Trait type = traitAt(i - 2, found_[at].end, "leaf", "type");
-    type.value = is(i - 2, "羽") ? "pinnate" : range.low == 3 && range.high == 3 ? "trifoliolate" : "palmate";
-    keep(std::move(type), true);
-  }
-  if (flowersHan) {
-    addCount(i, found_[at].end, "flower", "", range, "per inflorescence");
-    evidence_ += 1;
-    return found_[at].end;
-  }
-  const bool introduced = scope_.organInSentence && i > 0 && (isAny(i - 1, {"of", "with", "bearing", "具", "有", "含"}) || measure.unit == "pairs");  // "pappus of 20-30 bristles"
-  if (!isCountable(*noun) || (found_[at].as("organ")->everyday && !introduced && noun->name != "flower" && role == "organ" && noun->name != "leaf")) return 0;
-  if (noun->name == "leaf" && measure.end == range.end && range.low == range.high && !scope_.organInSentence) return 0;  // "2 leaves" in any prose
-  const std::string organ = role == "sub" ? ownerOf(*noun, at)->name : noun->name;
-  const std::size_t nounEnd = found_[at].end;
-  const bool pairsBehind = isAny(nounEnd, {"pairs", "pair"});                             // "10 or more pinna pairs"
-  const bool sideBehind = (is(nounEnd, "per") && is(nounEnd + 1, "side")) || (is(nounEnd, "on") && isAny(nounEnd + 1, {"each", "either"}) && is(nounEnd + 2, "side"));
-  addCount(i, pairsBehind ? nounEnd + 1 : nounEnd, organ, role == "sub" ? noun->name : "", range, pairsBehind ? "pairs" : sideBehind ? "per side" : measure.unit);
-  return measure.end == at ? at : range.end;  // the adjectives and the organ are read next
 }
 
 // "sepals absent", 花瓣缺: none of them.

@@ -51,12 +51,15 @@ const std::vector<Phrase>* phrasesWith(std::string_view word) {
   return stem == lexicon().end() ? nullptr : &stem->second;
 }
 
+// 球型漿果 is written for 球形漿果.
+bool isSameWord(std::string_view token, std::string_view word) { return token == word || (token == "型" && word == "形"); }
+
 // The token after the last word of `phrase` where it stands at `first`; 0 when it does not stand there.
 std::size_t endOf(const Phrase& phrase, const std::vector<Token>& tokens, std::size_t first) {
   std::size_t at = first + 1;
   for (std::size_t w = 1; w < phrase.words.size(); ++w) {
     if (at < tokens.size() && tokens[at].text == "-" && tokens[first].kind != TokenKind::Han) ++at;
-    if (at >= tokens.size() || tokens[at].text != phrase.words[w]) return 0;
+    if (at >= tokens.size() || !isSameWord(tokens[at].text, phrase.words[w])) return 0;
     ++at;
   }
   return at;

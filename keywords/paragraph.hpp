@@ -33,6 +33,7 @@ struct Scope {
   bool commaSincePlace = false;
   const Concept* container = nullptr;  ///< "racemes of 5-12 flowers": the racemes, when the flowers were named last
   const Concept* member = nullptr;     ///< 花組成繖房花序: the flowers, when the inflorescence was named last
+  bool stranger = false;  ///< a part that the vocabulary does not have is spoken of: "connectives 2-4 mm"
 };
 
 /// A statement that was denied, for finding contradictions.
@@ -103,7 +104,14 @@ class ParagraphReader {
   [[nodiscard]] const Concept* ownerOf(const Concept& piece, std::size_t i) const;
   [[nodiscard]] std::string whichBefore(std::size_t i) const;
   void noteSign(std::size_t i);
+  void noteBracket(std::size_t i);
+  [[nodiscard]] bool isStranger(std::size_t i, std::size_t end) const;
+  void noteStranger(std::size_t i);
+  [[nodiscard]] const Concept& stalkOf(const Concept& stalk) const;
+  [[nodiscard]] const Concept& stipeOf(const Concept& stipe) const;
+  [[nodiscard]] std::size_t afterExcept(std::size_t i) const;
   void noteNoun(std::size_t i);
+  [[nodiscard]] bool isNamedAgain(std::size_t i, const Concept& organ) const;
   void noteOrgan(std::size_t i, const Concept& organ);
   void notePiece(std::size_t i, const Concept& piece);
   void notePlace(std::size_t i, const Concept& place);
@@ -120,6 +128,8 @@ class ParagraphReader {
   };
   [[nodiscard]] Ahead nounAhead(std::size_t end) const;
   [[nodiscard]] const Concept* organAfter(std::size_t end) const;
+  [[nodiscard]] bool isOfAnotherOrgan(const Category& category, const Concept* organ, bool named) const;
+  [[nodiscard]] bool isAboutHairs(std::size_t end) const;
   [[nodiscard]] bool isPredicateBasal(std::size_t i) const;
   [[nodiscard]] bool speaksAsTerm(std::size_t i) const;
   [[nodiscard]] bool saysNothingOf(const Meaning& meaning, std::size_t i, const Concept* organ, const Concept* place) const;
@@ -133,6 +143,7 @@ class ParagraphReader {
   [[nodiscard]] bool isOppositeOfLeaves(std::size_t i) const;
   void readTerm(std::size_t i);
   void startWithPlant(std::size_t i);
+  void enterPlant(std::size_t end);
   /// Whose statement a term is.
   struct Subject {
     const Concept* organ = nullptr;
@@ -160,11 +171,13 @@ class ParagraphReader {
   std::size_t readCountedWord(std::size_t i, const NumberRange& range);
   std::size_t readCountOfOrganBefore(std::size_t i, const NumberRange& range);
   std::size_t readCountOfOrganAfter(std::size_t i, const NumberRange& range);
+  [[nodiscard]] std::size_t afterAdjectives(std::size_t from) const;
   std::size_t readCountGoingOn(std::size_t i, const NumberRange& range);
   std::size_t readNumerous(std::size_t i);
   std::size_t readAbsent(std::size_t i);
   [[nodiscard]] std::size_t afterUnread(std::size_t i, const NumberRange& range) const;
   std::size_t readDivisions(std::size_t i);
+  [[nodiscard]] bool isBehindRows(std::size_t before) const;
   [[nodiscard]] std::size_t beforeEach(std::size_t i) const;
   [[nodiscard]] std::string unitOfEach(std::size_t i) const;
   void addLobedShape(std::size_t i, std::size_t end, const NumberRange& range);
@@ -172,6 +185,8 @@ class ParagraphReader {
 
   // sizes.cpp
   [[nodiscard]] bool isAltitude(std::size_t i) const;
+  [[nodiscard]] bool isHeightOfPlant(const Size& size) const;
+  [[nodiscard]] bool isExtent(std::size_t first) const;
   std::size_t readSizes(std::size_t i);
   [[nodiscard]] const Concept* measuredOrgan(const Size& size, const Concept* subject) const;
   std::size_t readAngle(std::size_t i);
@@ -204,6 +219,7 @@ class ParagraphReader {
   std::vector<Found> found_;
   ParagraphResult result_;
   Scope scope_;
+  std::vector<Scope> outside_;  // what was being spoken of where each open bracket began
   LastTerm last_;
   struct LastCount {
     std::size_t end = 0;
@@ -215,6 +231,7 @@ class ParagraphReader {
   std::size_t sizeEnd_ = 0;        // where the last size ended, and
   std::string sizeQualifier_;      // how it was meant
   bool plantInSentence_ = false;
+  bool plantSeen_ = false;  // a life form, a duration of the whole
   std::map<const Concept*, std::size_t> namedAt_;      // where each organ was named last
   std::vector<std::pair<std::size_t, std::string>> organFrom_;  // which organ was spoken of from which token on, for unknown words
   double evidence_ = 0;
@@ -229,5 +246,7 @@ class ParagraphReader {
 };
 
 [[nodiscard]] const Concept& organNamed(std::string_view name);
+/// Whether a bare number beside that organ counts it.
+[[nodiscard]] bool isCountable(const Concept& noun);
 
 }  // namespace axil::keywords

@@ -271,6 +271,13 @@ std::optional<Measured> measuredAt(const Tokens& tokens, const std::vector<Found
     }
     return m;
   }
+  // 10x0.6 (公分)
+  if (isOpen(tokens, m.end))
+    if (const auto inside = namedAt(found, m.end + 1, "unit"); inside && isClose(tokens, inside->end)) {
+      m.unit = inside->name;
+      m.end = inside->end + 1;
+      return m;
+    }
   const bool dimensionBefore = dimensionEndingAt(found, at).has_value();
   const auto dimensionBehind = namedAt(found, m.end, "dimension");
   if (dimensionBefore) {
@@ -335,6 +342,12 @@ std::optional<NumberRange> rangeAt(const Tokens& tokens, std::size_t first) {
       at = high->end;
     }
   }
+  // "10-33.75-60": lowest, mean, highest.
+  if (range.high > range.low && is(tokens, at, "-"))
+    if (const auto highest = numberAt(tokens, at + 1); highest && highest->value > range.high && highest->end == at + 2 && !tokens[at].spaceBefore) {
+      range.high = highest->value;
+      at = highest->end;
+    }
   if (const std::size_t open = range.high == range.low ? afterOpenEnd(tokens, at) : 0) {
     range.open = true;
     at = open;

@@ -70,6 +70,8 @@ class Repair {
     if (const std::size_t taken = mixedRun(i, out)) return taken;
     if (const std::size_t taken = letterForDigit(i, out)) return taken;
     if (const std::size_t taken = decimalComma(i, out)) return taken;
+    if (const std::size_t taken = decimalList(i, out)) return taken;
+    if (const std::size_t taken = fraction(i, out)) return taken;
     return brokenUnit(i, out);
   }
 
@@ -136,8 +138,53 @@ class Repair {
     return unitFollows(i + 3) ? put(out, i, i + 3, TokenKind::Number, text) : 0;
   }
 
+  // 長1、8厘米: the point was lost to a sign of lists.
+  std::size_t decimalList(std::size_t i, std::vector<Token>& out) {
+    if (!isNumber(i) || !is(i + 1, "、") || !isNumber(i + 2) || tokens_[i + 2].text.size() != 1) return 0;
+    if (tokens_[i].text.find('.') != std::string_view::npos || (i > 0 && is(i - 1, "、"))) return 0;
+    const bool afterDimension = i > 0 && isOneOf(tokens_[i - 1].text, {"長", "长", "寬", "宽", "高", "徑", "径", "約", "约", "至", "-"});
+    for (std::size_t k = i + 3; afterDimension && k < tokens_.size() && k < i + 8; ++k) {
+      if (isOneOf(tokens_[k].text, {"cm", "mm", "m", "公", "厘", "毫", "米"})) return put(out, i, i + 3, TokenKind::Number, std::string(tokens_[i].text) + "." + std::string(tokens_[i + 2].text));
+      if (!isNumber(k) && !isOneOf(tokens_[k].text, {"至", "-", "、", "到"})) return 0;
+    }
+    return 0;
+  }
+
+  [[nodiscard]] bool inchFollows(std::size_t i) const {
+    for (std::size_t k = i; k < tokens_.size() && k < i + 6; ++k) {
+      if (isOneOf(tokens_[k].text, {"in", "inch", "inches", "ft", "feet", "foot", "\""})) return true;
+      if (!isNumber(k) && !isOneOf(tokens_[k].text, {"-", "to", "/", "or"})) return false;
+    }
+    return false;
+  }
+
+  // "1/2 in.", "1 1/4-3 in. long".
+  std::size_t fraction(std::size_t i, std::vector<Token>& out) {
+    if (!isNumber(i)) return 0;
+    const bool mixed = isNumber(i + 1) && is(i + 2, "/") && !is(i + 1, "/");
+    const std::size_t top = mixed ? i + 1 : i;
+    if (!is(top + 1, "/") || !isNumber(top + 2) || !touches(tokens_, top + 1) || !touches(tokens_, top + 2)) return 0;
+    const double numerator = tokens_[top].number;
+    const double denominator = tokens_[top + 2].number;
+    const bool usual = denominator == 2 || denominator == 3 || denominator == 4 || denominator == 8 || denominator == 16;
+    if (!usual || numerator <= 0 || numerator >= denominator || !inchFollows(top + 3)) return 0;
+    const double value = (mixed ? tokens_[i].number : 0) + numerator / denominator;
+    return put(out, i, top + 3, TokenKind::Number, fixed(value, 3));
+  }
+
+  // 1-3' tall, 2-4" long: signs for feet and inches, right behind a number and before a word of dimension.
+  std::size_t footOrInch(std::size_t i, std::vector<Token>& out) {
+    if (!(is(i, "'") || is(i, "\"")) || !touches(tokens_, i)) return 0;
+    const bool measured = i + 1 < tokens_.size() && isOneOf(tokens_[i + 1].text, {"long", "wide", "tall", "high", "across", "broad", "thick", "in", "by", "x", "*", "diameter"});
+    const bool timesBefore = i > 1 && isOneOf(tokens_[i - 2].text, {"x", "*", "by"});
+    return measured || timesBefore ? put(out, i, i + 1, TokenKind::Word, is(i, "'") ? "ft" : "in") : 0;
+  }
+
   std::size_t brokenUnit(std::size_t i, std::vector<Token>& out) {
     if (i == 0 || !isNumber(i - 1)) return 0;
+    if (const std::size_t taken = footOrInch(i, out)) return taken;
+    if ((is(i, "c") || is(i, "m")) && is(i + 1, "m") && !(i + 2 < tokens_.size() && isWord(i + 2) && touches(tokens_, i + 2)))
+      return put(out, i, i + 2, TokenKind::Word, is(i, "c") ? "cm" : "mm");
     if (is(i, "crn")) return put(out, i, i + 1, TokenKind::Word, "cm");
     return isWord(i) && isOneOf(tokens_[i].text, {"rnm", "mrn", "rnrn"}) ? put(out, i, i + 1, TokenKind::Word, "mm") : 0;
   }

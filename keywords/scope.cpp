@@ -63,7 +63,7 @@ const Concept* ParagraphReader::nounAt(std::size_t i, std::string_view role) con
   const std::size_t end = found_[i].end;
   if (isHan(i) && isAny(end, {"狀", "状"}) && roleOf(*noun) == "organ") return nullptr;  // 花瓣狀
   const bool likeness = is(end, "like") || (is(end, "-") && isAny(end + 1, {"like", "shaped"}));  // "grass-like leaves"
-  if (likeness || (isAny(i, {"standard", "keel", "lip"}) && end == i + 1 && !isFlowerSpokenOf())) return nullptr;
+  if (likeness || (isAny(i, {"standard", "keel", "lip", "column", "columns"}) && end == i + 1 && !isFlowerSpokenOf())) return nullptr;
   // 花 in 花費, 葉 in a name: one character of a longer word that the vocabulary does not know.
   const bool oneHan = isHan(i) && found_[i].end == i + 1;
   const bool aloneInWord = oneHan && tokens_[i].insideWord && !(i + 1 < tokens_.size() && found_[i + 1]) && !(i > 0 && (found_[i - 1] || isAny(i - 1, {"的", "本", "具"})));
@@ -77,7 +77,7 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   std::size_t before = i - 1;
   if (before > 0 && isAny(before, {"the", "its", "each", "a"})) --before;
   while (before > 0 && isAny(before, {"lower", "upper", "young", "basal", "middle", "old", "lateral", "leaf", "short", "long", "spur", "juvenile", "fertile", "sterile", "flowering", "vegetative", "new",
-                                      "current", "previous", "year", "second", "adult", "subtending", "ultimate", "leafy", "terminal", "main", "mature", "same", "opposite"}))
+                                      "very", "leafless", "slender", "stout", "current", "previous", "year", "second", "adult", "subtending", "ultimate", "leafy", "terminal", "main", "mature", "same", "opposite"}))
     --before;
   if (isHan(i) && isAny(before, {"每", "各"})) return scope_.organInSentence;
   const std::size_t behind = found_[i].end;  // 莖下部者3-4枚輪生: which of the leaves
@@ -94,7 +94,7 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   if (isAny(before, {"without", "lacking", "no", "無", "无", "缺"}) && !is(i, "毛")) return true;
   if (before > 0 && is(before, "具") && isAny(before - 1, {"不", "未"})) return true;
   if (isAny(before, {"與", "与"}) && isAny(found_[i].end, {"呈", "成", "夾", "夹", "間", "间", "等", "對", "对", "同"})) return true;
-  if (isAny(before, {"than", "to", "與", "与", "和", "短", "exceeding", "於", "于", "near", "towards", "from", "among", "between", "above", "below", "on", "after", "before", "per", "until", "subtending", "opposite"}) && !isMeasuredItself) {
+  if (isAny(before, {"than", "to", "與", "与", "和", "短", "比", "較", "较", "似", "先", "exceeding", "於", "于", "near", "towards", "from", "among", "between", "above", "below", "on", "after", "before", "per", "until", "subtending", "opposite"}) && !isMeasuredItself) {
     const bool afterTo = is(before, "to") && before > 0 && nounAt(i)->name == "plant" && found_[before - 1];  // "shrubs to small trees"
     return scope_.organInSentence && !afterTo && !(isAny(before, {"和", "與", "与"}) && before > 0 && nounAt(before - 1) != nullptr);
   }
@@ -132,7 +132,7 @@ bool ParagraphReader::isRightBehindOrgan(std::size_t i) const {
 const Concept* ParagraphReader::ownerOf(const Concept& piece, std::size_t i) const {
   const std::vector<std::string> owners = ownersOf(piece);
   for (std::size_t k = i; k < found_[i].end; ++k) {
-    if (is(k, "萼")) return &organNamed("calyx");
+    if (is(k, "萼") && !(k > 0 && is(k - 1, "副"))) return &organNamed("calyx");
     if (is(k, "冠")) return &organNamed("corolla");
     if (is(k, "被")) return &organNamed("perianth");
     if (isAny(k, {"柱", "style", "stylar"})) return &organNamed("style");
@@ -157,7 +157,9 @@ std::string ParagraphReader::whichBefore(std::size_t i) const {
       if (before && before.end == i)
         if (const Concept* which = before.conceptAs("which")) return which->name;
     }
-  if (!isHan(i) || found_[i].end < i + 2) return {};
+  // 雄蕊 is a stamen and not the male kind of one.
+  const Concept* noun = found_[i].conceptAs("organ");
+  if (!isHan(i) || found_[i].end < i + 2 || (noun != nullptr && isOneOf(noun->name, {"stamen", "pistil", "column"}))) return {};
   for (const Concept& which : categoryOf("which").concepts)
     for (const std::vector<Term>* terms : {&which.traditional, &which.simplified})
       for (const Term& term : *terms) {
@@ -171,6 +173,9 @@ std::string ParagraphReader::whichBefore(std::size_t i) const {
 
 void ParagraphReader::noteSign(std::size_t i) {
   const bool sentence = isSentenceEnd(i);
+  if (isAny(i, {"(", "[", ")", "]"})) return noteBracket(i);
+  if (sentence) outside_.clear();
+  if (sentence || isAny(i, {";", "；"})) scope_.stranger = false;
   if (sentence) {
     plantInSentence_ = false;
     scope_.organInSentence = false;
@@ -186,6 +191,7 @@ void ParagraphReader::noteSign(std::size_t i) {
     scope_.subjectInSegment = false;
     scope_.commaSincePlace = true;
   }
+  if (sentence || isAny(i, {";", "；", ","})) noteStranger(i);
 }
 
 void ParagraphReader::noteNoun(std::size_t i) {
@@ -211,7 +217,22 @@ void ParagraphReader::noteNoun(std::size_t i) {
     }
     return;
   }
-  noteOrgan(i, *noun);
+  if (noun->name == "stipe" && !isHan(i)) return noteOrgan(i, stipeOf(*noun));
+  if (noun->name != "stalk") return noteOrgan(i, *noun);
+  // 具短柄 says that there is one; at the begin of a clause its own statements follow.
+  if (isHan(i) && i > 0 && tokens_[i - 1].kind != TokenKind::Sign) return;
+  noteOrgan(i, stalkOf(*noun));
+}
+
+// Whether that organ is named once more, in one of the next clauses.
+bool ParagraphReader::isNamedAgain(std::size_t i, const Concept& organ) const {
+  constexpr std::size_t near = 60;
+  bool otherClause = false;
+  for (std::size_t at = found_[i].end; at < tokens_.size() && at < i + near; ++at) {
+    otherClause = otherClause || isAny(at, {";", "；", ".", "。"});
+    if (otherClause && found_[at].conceptAs("organ") == &organ) return true;
+  }
+  return false;
 }
 
 void ParagraphReader::noteOrgan(std::size_t i, const Concept& organ) {
@@ -226,12 +247,14 @@ void ParagraphReader::noteOrgan(std::size_t i, const Concept& organ) {
   plantInSentence_ = plantInSentence_ || organ.name == "plant";
   const bool counted = i > 0 && (tokens_[i - 1].kind == TokenKind::Number || isAny(i - 1, {"朵", "個", "个", "含", "具", "有"}));
   const bool inInflorescence = scope_.organ != nullptr && isOneOf(scope_.organ->name, {"inflorescence", "spikelet"}) && scope_.subjectInClause;
-  const Concept* container = organ.name == "flower" && inInflorescence && counted ? scope_.organ : nullptr;
+  const bool ofFlowers = organ.name == "flower" && inInflorescence && counted;
+  const bool ofLeaf = organ.name == "leaflet" && counted && scope_.organ != nullptr && scope_.organ->name == "leaf" && scope_.subjectInSegment && isNamedAgain(i, organ);
   const bool madeOf = organ.name == "inflorescence" && i > 0 && isAny(i - 1, {"成", "為", "为", "呈"}) && scope_.organ != nullptr && scope_.organ->name == "flower" && scope_.subjectInClause;
   std::size_t in = i;  // "flowers 20 in a tight head, 5 mm across"
   while (in > 0 && in + 4 > i && tokens_[in - 1].kind == TokenKind::Word && !is(in - 1, "in")) --in;
   const bool gathered = organ.name == "inflorescence" && in > 0 && is(in - 1, "in") && scope_.organ != nullptr && scope_.organ->name == "flower" && scope_.subjectInClause;
   const Concept* member = madeOf || gathered ? scope_.organ : nullptr;
+  const Concept* container = ofFlowers || ofLeaf ? scope_.organ : nullptr;
   scope_ = {&organ, partner, nullptr, nullptr, whichBefore(i), found_[i].end, true, isSubject, true, false, container, member};
   organFrom_.emplace_back(i, organ.name);
 }
@@ -249,6 +272,7 @@ void ParagraphReader::notePiece(std::size_t i, const Concept& piece) {
   // 蒴果具三翅，長2公分: behind the comma the fruit is measured.
   const bool given = i > 0 && (tokens_[i - 1].kind == TokenKind::Number || numberAt(tokens_, i - 1)) && isHan(i);
   scope_.container = given ? owner : nullptr;
+  scope_.stranger = false;
   scope_.organInSentence = scope_.subjectInClause = scope_.subjectInSegment = true;
   scope_.commaSincePlace = false;
   organFrom_.emplace_back(i, owner->name);
@@ -270,9 +294,13 @@ void ParagraphReader::notePlace(std::size_t i, const Concept& place) {
   if (scope_.organ == nullptr || (isOneOf(scope_.organ->name, {"plant", "petiole", "vein", "stipule"}) && !(place.name == "surface" && scope_.organEnd == i))) {
     scope_.organ = &organNamed("leaf");
     scope_.piece = nullptr;
+    scope_.which.clear();
   }
   const bool namesLeaf = isHan(i) && isAny(i, {"葉", "叶"});
   if (namesLeaf && scope_.organ->name != "leaflet") scope_.organ = &organNamed("leaf");
+  // "lobes with blunt teeth, base cordate": behind a comma the blade again, not a tooth.
+  if (scope_.piece != nullptr && scope_.piece->name == "tooth" && i > 0 && tokens_[i - 1].kind == TokenKind::Sign) scope_.piece = nullptr;
+  scope_.stranger = false;
   scope_.organInSentence = scope_.subjectInSegment = true;
   scope_.place = &place;
   scope_.organEnd = found_[i].end;
@@ -290,6 +318,7 @@ void ParagraphReader::noteWhich(std::size_t i) {
     scope_.subjectInClause = scope_.subjectInSegment = true;
     return;
   }
+  if (found_[i].as("position") != nullptr) return;  // 花序頂生
   const bool opensSegment = i == 0 || isAny(i - 1, {",", ";", "、", "；"}) || (scope_.organ != nullptr && scope_.organEnd == i);
   if (!opensSegment || !isHan(i) || nounAt(end) != nullptr || !scope_.organInSentence) return;
   scope_.which = found_[i].conceptAs("which")->name;

@@ -7,6 +7,7 @@ namespace axil::keywords {
 
 bool ParagraphReader::isAltitude(std::size_t i) const {
   for (std::size_t back = 1; back <= 7 && back <= i; ++back) {
+    if (back == 1 && is(i - back, "深")) return true;
     if (isAny(i - back, {"elevation", "elevations", "altitude", "altitudes", "alt", "elev", "拔", "depth", "depths", "apart", "distance"})) return true;
     if (isAny(i - back, {"距"}) && i > back && isAny(i - back - 1, {"間", "间", "株", "行"})) return true;
     if (isAny(i - back, {";", "。", "；"}) || nounAt(i - back) != nullptr) return false;
@@ -14,18 +15,29 @@ bool ParagraphReader::isAltitude(std::size_t i) const {
   return false;
 }
 
+// "About 5 feet high.", 高1-2公尺，多分枝: a sentence that begins with a height is about the plant that was named, or the first to be said.
+bool ParagraphReader::isHeightOfPlant(const Size& size) const {
+  if (scope_.organInSentence || size.dimension != "height" || !opensSentence(size.first)) return false;
+  return namedAt_.empty() || namedAt_.contains(&organNamed("plant")) || plantSeen_;
+}
+
+// "adnate to the petiole for 1-2 mm": how far something reaches is no size of it.
+bool ParagraphReader::isExtent(std::size_t first) const { return first > 0 && is(first - 1, "for"); }
+
 std::size_t ParagraphReader::readSizes(std::size_t i) {
   const std::vector<Size> sizes = sizesAt(tokens_, found_, i);
   if (sizes.empty()) return 0;
   // "4 5 cm": the sign between them was lost, so neither number can be trusted.
   if (i > 0 && tokens_[i - 1].kind == TokenKind::Number && tokens_[i].kind == TokenKind::Number) return sizes.front().end;
   const std::size_t end = sizes.front().end;
+  if (isHeightOfPlant(sizes.front())) enterPlant(sizes.front().first);
   const bool ofPlace = scope_.place != nullptr && scope_.place->name != "surface" && !scope_.commaSincePlace;
   const bool elsewhere = isAltitude(i) || isAny(end, {"a", "above", "asl", "apart", "below", "deep", "from", "away"});
-  const Concept* attributive = organAfter(end);
+  const Concept* attributive = isSentenceEnd(end - 1) ? nullptr : organAfter(end);  // "80 cm d.b.h. Leaves"
   const Concept* subject = attributive != nullptr && attributive != scope_.organ && !scope_.subjectInClause ? attributive : scope_.organ;
   const Concept* organ = measuredOrgan(sizes.front(), subject);
-  if (!(scope_.organInSentence || subject == attributive) || organ == nullptr || ofPlace || elsewhere) return end;
+  if (!(scope_.organInSentence || subject == attributive) || organ == nullptr || ofPlace || elsewhere || isExtent(sizes.front().first)) return end;
+  if (scope_.stranger && subject != attributive) return end;
   const bool ofWhole = scope_.container == organ && !scope_.subjectInSegment && !isRightBehindOrgan(sizes.front().first);
   const Concept* piece = organ == scope_.organ && !ofWhole ? scope_.piece : nullptr;
   const std::string& bare = piece != nullptr ? piece->columns.at("size") : organ->columns.at("size");

@@ -21,7 +21,7 @@ bool isOutline(const Category& category, const Concept& entry) { return category
 }  // namespace
 
 bool ParagraphReader::hasTraitMeaning(std::size_t i) const {
-  return found_[i] && std::any_of(found_[i].phrase->meanings.begin(), found_[i].phrase->meanings.end(),
+  return i < found_.size() && found_[i] && std::any_of(found_[i].phrase->meanings.begin(), found_[i].phrase->meanings.end(),
                                   [](const Meaning& m) { return !isGrammarWord(*m.category); });
 }
 
@@ -173,7 +173,7 @@ void ParagraphReader::keep(Trait trait, bool attributive) {
 
 void ParagraphReader::extendCompound(const Found& f, const std::string& value) {
   Trait& trait = result_.traits.back();
-  trait.value += "-" + value;
+  if (trait.value != value) trait.value += "-" + value;  // "pentagonal-angulate" says one thing twice
   trait.span.end = tokens_[f.end - 1].end;
   trait.end = tokens_[f.end - 1].stop;
   trait.text = std::string(text_.substr(trait.span.begin - firstByte_, trait.span.end - trait.span.begin));
@@ -208,7 +208,9 @@ void ParagraphReader::keepTerm(std::size_t i, const Meaning& meaning, const Subj
     return;
   }
   if (category.property == "form" && takesDefault) trait.organ = "flower";
+  const bool inDigits = category.property == "type" && trait.value == "trifoliolate" && tokens_[f.first].kind == TokenKind::Number && tokens_[f.end - 1].kind == TokenKind::Word;
   keep(std::move(trait), attributive);
+  if (inDigits) addCount(f.first, f.end, "leaflet", "", {{}, 3, 3, {}, f.end, false}, {});  // "3-foliolate" is a number too
 }
 
 // A phrase that also names an organ is read as a term where it is that organ here (複葉, racemes), or only a term (分枝).
@@ -225,8 +227,12 @@ void ParagraphReader::startWithPlant(std::size_t i) {
   const bool lifeForm = found_[i].as("life form") != nullptr && found_[i].as("organ") == nullptr;  // "Aquatic, free-floating"
   const bool begins = startsSentence(i) && (habit || ((ofYears || lifeForm) && isAny(found_[i].end, {",", ";", ".", "，"})));
   if (scope_.organInSentence || (!begins && !isPlantNoun(i))) return;
-  plantInSentence_ = true;
-  scope_ = {&organNamed("plant"), nullptr, nullptr, nullptr, {}, i, true, false, true, false, nullptr, nullptr};
+  enterPlant(i);
+}
+
+void ParagraphReader::enterPlant(std::size_t end) {
+  plantInSentence_ = plantSeen_ = true;
+  scope_ = {&organNamed("plant"), nullptr, nullptr, nullptr, {}, end, true, false, true, false, nullptr, nullptr};
 }
 
 // "Leaves 3-5, basal": where they stand; in "basal leaves" and "basal and cauline" only which are meant.
@@ -234,6 +240,19 @@ bool ParagraphReader::isPredicateBasal(std::size_t i) const {
   const bool ofLeaf = scope_.organ != nullptr && scope_.organ->name == "leaf" && scope_.subjectInClause && scope_.which.empty();
   const bool goesOn = isAny(i + 1, {"and", "or", "to", "&", "-"}) || (i + 1 < tokens_.size() && found_[i + 1].conceptAs("organ") != nullptr);
   return ofLeaf && !goesOn && (isRightBehindOrgan(i) || isChained(i) || is(i - 1, ","));
+}
+
+// "bark ... lobed", 冠毛羽狀: a statement that cannot be about the subject of its clause is not handed on to the leaf either.
+bool ParagraphReader::isOfAnotherOrgan(const Category& category, const Concept* organ, bool named) const {
+  if (named || organ == nullptr || organ != scope_.organ || !scope_.subjectInClause || accepts(category, organ) || category.ownOrgan) return false;
+  return isOneOf(organ->name, {"bark", "root", "hair", "seta", "pappus", "vein", "awn", "thorn", "ovary", "gland", "lenticel", "style", "stigma", "stamen", "anther", "filament", "seed", "fruit", "rhizome", "pericarp", "stone", "sorus"});
+}
+
+// 簇生棕色曲柔毛: hairs stand so.
+bool ParagraphReader::isAboutHairs(std::size_t end) const {
+  for (std::size_t at = end; at < tokens_.size() && at < end + 8 && isHan(at); ++at)
+    if (isAny(at, {"毛", "腺", "鱗", "鳞", "刺"})) return true;
+  return false;
 }
 
 // Words that mean something else beside that organ: a solitary trunk is no inflorescence, fruits in pairs do not stand opposite,
@@ -247,6 +266,15 @@ bool ParagraphReader::saysNothingOf(const Meaning& meaning, std::size_t i, const
   if (property == "arrangement" && value == "opposite" && isAny(i, {"in", "paired", "成"})) return isOneOf(name, {"flower", "fruit", "inflorescence", "thorn", "stamen", "seed", "bract", "plant"});
   if (property == "arrangement" && value == "rosette" && isAny(i, {"basal", "radical"}) && found_[i].end == i + 1) return !isPredicateBasal(i);
   if (property == "arrangement" && value == "whorled" && i > 0 && tokens_[i - 1].kind == TokenKind::Number) return isOneOf(name, {"tepal", "petal", "sepal", "stamen", "bract", "carpel"});
+  if (property == "arrangement" && isHan(i) && isOneOf(value, {"fascicled", "scattered"}) && isAboutHairs(found_[i].end)) return true;
+  if (property == "arrangement" && value == "spiral" && isAny(found_[i].end, {"twisted", "coiled", "contorted", "curved", "wound", "扭", "捲", "卷", "旋", "彎", "弯"})) return true;
+  if (property == "arrangement" && value == "rosette" && is(i + 1, "出")) return numberAt(tokens_, found_[i].end).has_value() || isAny(found_[i].end, {"脈", "脉", "掌"});  // 基出3脈
+  if (property == "type" && value == "solitary" && is(found_[i].end, "-")) return true;  // "single-nerved"
+  if (property == "margin" && value == "spinose" && isOneOf(name, {"fruit", "seed", "stem", "branch", "plant", "calyx"})) return true;  // 蒴果具刺
+  if (property == "margin" && value == "entire" && i > 0 && isAny(i - 1, {"falling", "shed", "dispersed", "swallowed"})) return true;
+  if (property == "duration" && isOneOf(value, {"annual", "biennial"}) && isOneOf(name, {"branch", "bark"})) return true;  // 二年生小枝
+  if (property == "life form" && is(i, "herbaceous") && isOneOf(name, {"leaf", "leaflet", "bract", "sepal", "tepal", "stipule", "involucre"})) return true;  // a texture
+  if (property == "habit" && is(found_[i].end, "base")) return true;  // "from a creeping base"
   if (property == "shape" && name == "vein") return true;
   if (property == "branching" && i > 0 && is(i - 1, "每")) return true;
   if (property == "margin" && value == "lobed" && i > 0 && isAny(i - 1, {"或", "至", "到"}) && lastCount_.piece == "lobe" && lastCount_.end + 1 == i) return true;  // 3淺裂或中裂
@@ -278,6 +306,8 @@ void ParagraphReader::readTerm(std::size_t i) {
   const Concept* place = named != nullptr ? named : (attributive != nullptr ? nullptr : scope_.place);
   const Meaning* meaning = meaningFor(f, organ, place);
   if (meaning == nullptr || saysNothingOf(*meaning, i, organ, place)) return;
+  if (scope_.stranger && attributive == nullptr) return;
+  if (isOfAnotherOrgan(*meaning->category, organ, attributive != nullptr || named != nullptr)) return;
   const std::optional<Meaning> deeper = deeperCut(i, *meaning);
   if (deeper) meaning = &*deeper;
   // 螺旋狀排列的稜: said of what it stands before or of nothing.
@@ -301,17 +331,16 @@ void ParagraphReader::readTerm(std::size_t i) {
   now.linked = attributive != nullptr || named != nullptr || isRightBehindOrgan(i) || isChained(i);
   weighTerm(i, *meaning, now.linked);
   now.kept = !now.negated;
-  const Subject subject{organ, attributive != nullptr ? ahead.piece : scope_.piece, attributive != nullptr, place, named != nullptr};
+  const bool ofTooth = attributive == nullptr && scope_.piece != nullptr && scope_.piece->name == "tooth" && meaning->category->property == "margin";  // 齒尖內彎，有時呈波狀
+  const Subject subject{organ, attributive != nullptr ? ahead.piece : ofTooth ? nullptr : scope_.piece, attributive != nullptr, place, named != nullptr};
   if (now.kept && continuesCompound(i, *meaning->category)) extendCompound(f, meaning->entry->name);
   else keepTerm(i, *meaning, subject, now);
   last_ = now;
   if (isPlantNoun(i) && scope_.organEnd == i) scope_.organEnd = f.end;
   // "Woody climber reaching 15 m": the phrase has named the plant itself.
   const bool namesPlant = meaning->category->property == "life form" && f.as("organ") == nullptr && attributive == nullptr && !now.negated && (scope_.organ == nullptr || !scope_.organInSentence || scope_.organ->name == "plant");
-  if (namesPlant) {
-    scope_ = {&organNamed("plant"), nullptr, nullptr, nullptr, {}, f.end, true, false, true, false, nullptr, nullptr};
-    plantInSentence_ = true;
-  }
+  if (namesPlant) enterPlant(f.end);
+  plantSeen_ = plantSeen_ || meaning->category->property == "life form";
   // 羽狀複葉,長20公分: the phrase has named the leaf itself.
   const auto isLeafWord = [](const std::string& word) { return isOneOf(word, {"葉", "叶"}); };
   const bool namesLeaf = isLeafWord(f.phrase->words.front()) || isLeafWord(f.phrase->words.back());

@@ -40,6 +40,19 @@ bool isTimes(char32_t c) { return c == 0xD7 || c == 0x2715 || c == 0x2716 || c =
 
 constexpr char32_t softHyphen = 0xAD;
 
+// Characters that are written in two ways within one script.
+char32_t foldedHan(char32_t c) {
+  switch (c) {
+    case U'濶': return U'闊';
+    case U'葯': return U'藥';
+    case U'爲': return U'為';
+    case U'綫': return U'線';
+    case U'鋭': return U'銳';
+    case U'菓': return U'果';
+    default: return c;
+  }
+}
+
 // Signs that Unicode does not fold but botanists use alike.
 char32_t foldedSign(char32_t c) {
   if (c == 0x3000 || c == 0xA0 || c == 0x2009 || c == 0x202F || c == 0xFEFF || c == 0x200B) return ' ';
@@ -47,6 +60,8 @@ char32_t foldedSign(char32_t c) {
   if (isTimes(c)) return '*';
   if (c == 0x3014 || c == 0x3010) return '(';
   if (c == 0x3015 || c == 0x3011) return ')';
+  if (c == 0x2019 || c == 0x2032) return '\'';  // feet
+  if (c == 0x201D || c == 0x2033) return '"';   // inches
   return c;
 }
 
@@ -73,7 +88,7 @@ Folded folded(char32_t c) {
   if (c == softHyphen) return {{c}, 1};
   const char32_t sign = foldedSign(c);
   if (sign != c) return {{sign}, 1};
-  if (c >= 0x4E00 && c <= 0x9FFF) return {{c}, 1};  // unified ideographs stand for themselves
+  if (c >= 0x4E00 && c <= 0x9FFF) return {{foldedHan(c)}, 1};  // the other unified ideographs stand for themselves
   const Folded text = foldedByUnicode(c);
   return text.count == 1 ? Folded{{foldedSign(text.codes[0])}, 1} : text;
 }
@@ -111,6 +126,7 @@ class Reader {
 
   [[nodiscard]] bool done() const { return at_ >= text_.size(); }
   [[nodiscard]] char32_t peek() const { return done() ? 0 : here_.codes[0]; }
+  [[nodiscard]] Folded peekFolded() const { return done() ? Folded{} : here_; }
   [[nodiscard]] char32_t peekSecond() const {
     const std::size_t next = at_ + length_;
     return next >= text_.size() ? 0 : folded(decodeAt(text_, next).code).codes[0];
@@ -141,6 +157,19 @@ class Reader {
   Folded here_;
 };
 
+constexpr char32_t fractionSlash = 0x2044;
+
+// "½" is one character that Unicode folds to "1⁄2"; as decimals, without the zero before the point.
+std::string decimalsOf(const Folded& folded) {
+  if (folded.count != 3 || folded.codes[1] != fractionSlash) return {};
+  const double value = static_cast<double>(folded.codes[0] - '0') / static_cast<double>(folded.codes[2] - '0');
+  constexpr double places = 1000;
+  std::string digits = std::to_string(static_cast<int>(value * places + 0.5));
+  digits.insert(0, 3 - std::min<std::size_t>(3, digits.size()), '0');
+  while (digits.size() > 1 && digits.back() == '0') digits.pop_back();
+  return "." + digits;
+}
+
 void append(std::string& letters, const Folded& folded) {
   for (std::size_t i = 0; i < folded.count; ++i) appendUtf8(letters, folded.codes[i]);
 }
@@ -148,11 +177,29 @@ void append(std::string& letters, const Folded& folded) {
 TokenKind takeToken(Reader& reader, std::string& letters) {
   const Folded taken = reader.take();
   const char32_t first = taken.codes[0];
+  if (const std::string decimals = decimalsOf(taken); !decimals.empty()) {
+    letters += "0" + decimals;
+    return TokenKind::Number;
+  }
   append(letters, taken);
   if (isHan(first)) return TokenKind::Han;
   if (isDigit(first)) {
-    while (isDigit(reader.peek()) || (reader.peek() == '.' && isDigit(reader.peekSecond()))) append(letters, reader.take());
+    for (bool point = false;;) {
+      if (const std::string decimals = decimalsOf(reader.peekFolded()); !decimals.empty()) {  // "1½"
+        reader.take();
+        if (!point) letters += decimals;
+        break;
+      }
+      const bool isPoint = reader.peek() == '.' && isDigit(reader.peekSecond());
+      if (!isDigit(reader.peek()) && !isPoint) break;
+      point = point || isPoint;
+      append(letters, reader.take());
+    }
     return TokenKind::Number;
+  }
+  if (first == '-') {  // "3--5" and "3—5" are one dash
+    while (reader.peek() == '-') reader.take();
+    return TokenKind::Sign;
   }
   if (!isLetter(first)) return TokenKind::Sign;
   while (isLetter(reader.peek()) || (reader.peek() == softHyphen)) {

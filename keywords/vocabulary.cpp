@@ -21,7 +21,7 @@ struct Source {
 
 // In the order in which meanings are tried. "erect" is the habit of a stem and the orientation of a pedicel.
 std::vector<Source> sources() {
-  const std::vector<std::string> bodies{"plant", "stem", "trunk", "rhizome", "root", "pseudobulb"};
+  const std::vector<std::string> bodies{"plant", "stem", "trunk", "rhizome", "pseudobulb"};
   return {
       {"organ", "", "", data::organ},
       {"which", "", "", data::which},
@@ -30,7 +30,7 @@ std::vector<Source> sources() {
       {"stop", "", "", data::stop},
       {"foreign", "", "", data::foreign},
       {"habit", "plant", "", data::habit, false, bodies},
-      {"arrangement", "leaf", "", data::arrangement, false, {}, {"vein", "ovary", "thorn"}},
+      {"arrangement", "leaf", "", data::arrangement, false, {}, {"vein", "ovary", "thorn", "hair", "seta", "gland", "lenticel", "scale", "pappus", "bark"}},
       {"type", "leaf", "", data::leaf_type, false, {"leaf", "plant"}},
       {"shape", "leaf", "", data::leaf_shape, false, {}, {"stem", "trunk", "branch", "internode", "petiole", "petiolule", "peduncle", "pedicel", "rachis"}},
       {"apex", "leaf", "apex", data::apex},
