@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace axil::skeleton3d {
 namespace {
@@ -158,32 +159,48 @@ std::vector<Sight> sightsOf(std::span<const View> views, const ClickedNode& node
   return sights;
 }
 
-/// What one reading says of its stem's radius, where it was believed. `sigma` is relative.
+/// What one reading says of its stem's radius, where it was believed.
 std::optional<MeasuredRadius> believedRadius(const View& view, const SnappedNode& node, const RidgeReadings& readings) {
   const auto inView = readings.find(view.name);
   if (inView == readings.end() || std::find(node.snappedIn.begin(), node.snappedIn.end(), view.name) == node.snappedIn.end()) return std::nullopt;
   const RidgeReading& ridge = inView->second.at(node.id);
   if (ridge.confidence < kLeastConfidence) return std::nullopt;
-  return MeasuredRadius{radiusFrom(view, ridge, node.at).radius, std::hypot(ridge.sigmaWidth_px / ridge.width_px, 0.05 + 0.05 / (ridge.confidence * ridge.confidence))};
+  const double radius = radiusFrom(view, ridge, node.at).radius;
+  return MeasuredRadius{radius, radius * std::hypot(ridge.sigmaWidth_px / ridge.width_px, 0.06)};
 }
 
-/// A radius for every node that has readings, from all readings of its stem as a taper.
+/// The readings of one stem's nodes, one each, with relative sigmas: by absolute ones a narrow mistake would outweigh all else.
+/// What is far wider than `widest` is something behind it: a branch is no thicker than its parent where it leaves it.
+struct AlongStem {
+  std::vector<MeasuredRadius> radii;
+  std::vector<NodeId> whose;
+};
+
+AlongStem alongStem(std::span<const View> views, std::span<const NodeId> nodes, const std::map<NodeId, const SnappedNode*>& places, const RidgeReadings& readings, double widest) {
+  constexpr double kLeeway = 1.25;
+  AlongStem along;
+  for (const NodeId id : nodes) {
+    if (!places.contains(id)) continue;
+    std::vector<MeasuredRadius> here;
+    for (const View& view : views)
+      if (const auto radius = believedRadius(view, *places.at(id), readings); radius && radius->radius < kLeeway * widest) here.push_back(*radius);
+    if (const auto radius = combinedRadius(here)) along.radii.push_back({radius->radius, radius->sigma / radius->radius}), along.whose.push_back(id);
+  }
+  return along;
+}
+
+/// A radius for every node that has readings, from all readings of its stem as a taper; parents first, as far as stems come in that order.
 std::map<NodeId, double> taperedRadiiOf(std::span<const View> views, std::span<const SnappedNode> placed, std::span<const ClickedStem> stems, const RidgeReadings& readings) {
   std::map<NodeId, const SnappedNode*> places;
   for (const SnappedNode& node : placed) places[node.id] = &node;
   std::map<NodeId, double> radii;
   for (std::size_t s = 0; s < stems.size(); ++s) {
-    std::vector<MeasuredRadius> along;  // by relative sigmas: by absolute ones a narrow mistake would outweigh all else
-    std::vector<NodeId> whose;
-    for (const NodeId id : stems[s].nodes) {
-      if ((id == stems[s].nodes.front() && s > 0) || !places.contains(id)) continue;  // its parent's
-      std::vector<MeasuredRadius> here;
-      for (const View& view : views)
-        if (const auto radius = believedRadius(view, *places.at(id), readings)) here.push_back(*radius);
-      if (!here.empty()) along.push_back(middleRadius(here)), whose.push_back(id);
-    }
-    const std::vector<double> tapered = taperedRadii(along);
-    for (std::size_t i = 0; i < tapered.size(); ++i) radii[whose[i]] = tapered[i];
+    const std::span<const NodeId> nodes = stems[s].nodes;
+    const auto parent = nodes.empty() ? radii.end() : radii.find(nodes.front());
+    const double widest = parent == radii.end() ? std::numeric_limits<double>::max() : parent->second;
+    const AlongStem along = alongStem(views, nodes.subspan(std::min<std::size_t>(s > 0 ? 1 : 0, nodes.size())), places, readings, widest);  // the first node is its parent's
+    const std::vector<double> tapered = taperedRadii(along.radii);
+    for (std::size_t i = 0; i < tapered.size(); ++i) radii[along.whose[i]] = tapered[i];
   }
   return radii;
 }

@@ -14,6 +14,7 @@ constexpr double kHalfStrength = 40;  ///< an edge pair of so many grey levels i
 constexpr double kReward = 2.0;       ///< of the best edges at one place, against squared sigmas of everything else
 constexpr double kWidthRatio = 1.22;  ///< from one width that is tried to the next,
 constexpr double kWidthStep_px = 2;   ///< at most so much: an edge is as sharp in a wide stem
+constexpr double kTorn = 0.5;         ///< of a pair's strength is lost where another edge as strong runs between: the outer edges of two stems
 constexpr double kWidthScatter = 0.15; ///< of an expected width's logarithm
 constexpr double kMostClicks = 2;     ///< times a click's scatter: a line that is known no better says nothing
 constexpr double kLeastLength = 0.5;  ///< of a stem that is seen, in widths: shorter it has no edges along it
@@ -41,16 +42,51 @@ Grid gridOf(const PathOptions& options, const Expected& expected) {
   return grid;
 }
 
+/// The strongest edge at each sample of a profile, in the units of ridgeStrength.
+std::vector<double> edgesOf(const RidgeProfile& profile) {
+  std::vector<double> edges;
+  for (const glm::vec4& slope : profile.slope) {
+    const double colour = glm::length(glm::vec3(slope));
+    edges.push_back(profile.hasLikelihood ? 0.5 * std::min(colour, 60.0) + std::abs(slope.w) : colour);
+  }
+  return edges;
+}
+
+/// The strongest edge between both edges of a band about one middle, for bands that grow.
+class Inside {
+ public:
+  Inside(const std::vector<double>& edges, const RidgeProfile& profile, double middle) : edges_(edges), centre_((middle + profile.reach_px) / kRidgeStep_px) {}
+
+  double strongest(double width) {
+    const double half = (0.5 * width - kMargin_px) / kRidgeStep_px;
+    for (; reach_ <= half; ++reach_)
+      for (const double at : {centre_ - reach_, centre_ + reach_}) {
+        const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(edges_.size() - 1)));
+        strongest_ = std::max(strongest_, edges_[i]);
+      }
+    return strongest_;
+  }
+
+ private:
+  static constexpr double kMargin_px = 2.5;  // an edge is so wide
+  const std::vector<double>& edges_;
+  double centre_ = 0, reach_ = 0, strongest_ = 0;
+};
+
 /// Costs of the states at one place, from the photo alone.
 std::vector<float> costsOf(const RidgeProfile& profile, const Grid& grid, double expectedWidth_px) {
   std::vector<float> costs;
-  for (const double middle : grid.middles)
+  const std::vector<double> edges = edgesOf(profile);
+  for (const double middle : grid.middles) {
+    Inside inside(edges, profile, middle);
     for (const double width : grid.widths) {
       const double left = middle - 0.5 * width, right = middle + 0.5 * width;
-      const double s = expectedWidth_px > 0 ? ridgeStrengthOfKnownWidth(profile, left, right) : ridgeStrength(profile, left, right);
+      const double whole = expectedWidth_px > 0 ? ridgeStrengthOfKnownWidth(profile, left, right) : ridgeStrength(profile, left, right);
+      const double s = whole - kTorn * std::min(inside.strongest(width), whole);
       const double odd = expectedWidth_px > 0 ? std::log(width / expectedWidth_px) / kWidthScatter : 0;
       costs.push_back(static_cast<float>(-kReward * s / (s + kHalfStrength) + std::min(0.25 * odd * odd, 2.0)));
     }
+  }
   return costs;
 }
 

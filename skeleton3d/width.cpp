@@ -1,6 +1,5 @@
 #include "skeleton3d/width.hpp"
 
-#include "base/result.hpp"
 #include "skeleton3d/camera.hpp"
 
 #include <glm/geometric.hpp>
@@ -55,13 +54,6 @@ std::optional<MeasuredRadius> combinedRadius(std::span<const MeasuredRadius> rea
     sum += weight * r.radius;
   }
   return MeasuredRadius{sum / weights, 1 / std::sqrt(weights)};
-}
-
-MeasuredRadius middleRadius(std::span<const MeasuredRadius> readings) {
-  AXIL_ASSERT(!readings.empty(), "a middle of nothing");
-  double weights = 0;
-  for (const MeasuredRadius& r : readings) weights += weightOf(r) * weightOf(r);
-  return {weightedMedian({readings.begin(), readings.end()}), 1 / std::sqrt(weights)};
 }
 
 std::vector<double> taperedRadii(std::span<const MeasuredRadius> radii) {

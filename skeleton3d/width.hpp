@@ -27,10 +27,6 @@ struct MeasuredRadius {
 /// well above the least are left out. Nothing for no reading.
 [[nodiscard]] std::optional<MeasuredRadius> combinedRadius(std::span<const MeasuredRadius> readings);
 
-/// The weighted median of several readings, the mean of both middle ones where they weigh the same: one wrong reading of three does
-/// not count, whichever way it is wrong. Weights are 1/sigma. At least one reading.
-[[nodiscard]] MeasuredRadius middleRadius(std::span<const MeasuredRadius> readings);
-
 /// The radii of a stem from its base to its tip that never grow and are nearest to those given, weighted by 1/sigma
 /// (least sum of absolute differences, so that single wrong readings do not count). A sigma of 0 counts as exact.
 [[nodiscard]] std::vector<double> taperedRadii(std::span<const MeasuredRadius> radii);
