@@ -13,6 +13,13 @@ using document::Project;
 using document::StemId;
 using document::Step;
 
+double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
+  const glm::dvec2 along = b - a;
+  const double length2 = glm::dot(along, along);
+  const double share = length2 > 0 ? std::clamp(glm::dot(p - a, along) / length2, 0.0, 1.0) : 0;
+  return glm::distance(p, a + share * along);
+}
+
 const skeleton3d::ClickedStem& stemAt(const Project& project, std::size_t place) { return project.stems[place].stem; }
 
 bool hasClick(const Project& project, NodeId id, const std::string& view) { return document::clickOf(project, id, view) != nullptr; }
@@ -59,10 +66,29 @@ ClickMeaning grow(const Project& project, NodeId node, const std::string& view, 
   return {isBranch ? ClickKind::Branch : ClickKind::Extend, std::move(step), {.node = added, .others = {}}, node, stem};
 }
 
+/// Whether the selected node waits for its first branch or its second node: then a click on another stem's line is that, not a node of the line.
+bool waits(const Project& project, NodeId selected, StemId line) {
+  const auto growing = growingStem(project, selected);
+  if (growing) return stemAt(project, *document::stemWithId(project, *growing)).nodes.size() == 1;
+  return stemOf(project, selected) != line;
+}
+
+std::optional<ClickMeaning> insert(const Project& project, std::optional<NodeId> selected, const PhotoClick& click) {
+  const auto place = lineAt(project, click);
+  if (!place || (selected && waits(project, *selected, place->stem))) return std::nullopt;
+  return ClickMeaning{ClickKind::Insert, insertAt(project, *place, click), {.node = document::nextNodeId(project), .others = {}}, place->above, place->stem};
+}
+
+/// The plant's base: a click on the origin that was set in this photo stands for those in the others too.
 ClickMeaning beginStem(const Project& project, const PhotoClick& click) {
   const NodeId node = document::nextNodeId(project);
   const StemId stem = document::nextStemId(project);
-  return {ClickKind::Begin, Step{document::AddNode{node, click.view, click.at}, document::AddStem{stem, {node}}}, {.node = node, .others = {}}, node, stem};
+  Step step{document::AddNode{node, click.view, click.at}, document::AddStem{stem, {node}}};
+  const auto& origin = project.views[*document::viewNamed(project, click.view)].origin_px;
+  if (origin && glm::distance(origin->px, click.at.px) <= click.reach_px)
+    for (const document::ProjectView& view : project.views)
+      if (view.view.name != click.view && view.origin_px) step.emplace_back(document::AddClick{node, view.view.name, *view.origin_px});
+  return {ClickKind::Begin, std::move(step), {.node = node, .others = {}}, node, stem};
 }
 
 }  // namespace
@@ -108,6 +134,30 @@ std::optional<NodeId> nodeAt(const Project& project, const PhotoClick& click) {
   return nearest;
 }
 
+std::optional<PlaceOnStem> placeOnStem(const Project& project, const PhotoClick& click) {
+  std::optional<PlaceOnStem> nearest;
+  for (const auto& entry : project.stems)
+    for (std::size_t i = 1; i < entry.stem.nodes.size(); ++i) {
+      const PhotoPoint* a = document::clickOf(project, entry.stem.nodes[i - 1], click.view);
+      const PhotoPoint* b = document::clickOf(project, entry.stem.nodes[i], click.view);
+      if (a == nullptr || b == nullptr) continue;
+      const double distance = distanceToSegment(click.at.px, a->px, b->px);
+      if (distance > click.reach_px || (nearest && distance >= nearest->distance_px)) continue;
+      nearest = PlaceOnStem{entry.stem.id, entry.stem.nodes[i - 1], entry.stem.nodes[i], distance};
+    }
+  return nearest;
+}
+
+Step insertAt(const Project& project, const PlaceOnStem& place, const PhotoClick& click) {
+  const NodeId node = document::nextNodeId(project);
+  return {document::AddNode{node, click.view, click.at}, document::InsertNode{place.stem, node, place.above}};
+}
+
+std::optional<PlaceOnStem> lineAt(const Project& project, PhotoClick click) {
+  click.reach_px = std::max(click.reach_px, click.stem_px) / 2;
+  return placeOnStem(project, click);
+}
+
 ClickMeaning meaningOf(const Project& project, const Selection& selection, const PhotoClick& click) {
   return meaningAlong(project, selection, click, std::span(&click.at, 1));
 }
@@ -118,6 +168,8 @@ ClickMeaning meaningAlong(const Project& project, const Selection& selection, co
     if (const auto node = nodeAt(project, click)) return {ClickKind::Select, {}, {.node = node, .others = {}}, node, stemOf(project, *node)};
   const bool selected = selection.node && document::nodeWithId(project, *selection.node);
   if (selected && !hasClick(project, *selection.node, click.view)) return place(project, *selection.node, click);
+  if (click.picking == Picking::PickNodes)
+    if (auto inserted = insert(project, selected ? selection.node : std::nullopt, click)) return std::move(*inserted);
   if (selected) return grow(project, *selection.node, click.view, way);
   if (project.stems.empty()) return beginStem(project, click);
   return {};

@@ -5,8 +5,12 @@
 ///
 /// - On a node: it is selected.
 /// - With a selected node that has no click in this photo yet: it gets one, and the next node of its stem that lacks one here is selected.
+/// - On a stem's line between two of its nodes: the stem gets a node there, which is selected, so that a branch can begin at it. Not
+///   where the selected node waits for its stem's second node, or for a branch that may cross another stem.
 /// - With a selected tip: its stem goes on with a new node. With a selected node in the middle: a branch begins at it.
 /// - With nothing selected: the first stem of the plant begins; where there is one already, nothing happens.
+///
+/// What comes first here wins.
 
 #include "document/command.hpp"
 
@@ -29,7 +33,7 @@ struct Selection {
   friend bool operator==(const Selection&, const Selection&) = default;
 };
 
-enum class ClickKind { Nothing, Select, Place, Extend, Branch, Begin };
+enum class ClickKind { Nothing, Select, Place, Insert, Extend, Branch, Begin };
 
 struct ClickMeaning {
   ClickKind kind = ClickKind::Nothing;
@@ -39,15 +43,28 @@ struct ClickMeaning {
   std::optional<document::StemId> stem = {};  ///< the stem that grows
 };
 
-/// PickNodes: a node within `reach_px` is selected. OnlyPlace: nodes nearby are passed over, to place a click close to one.
+/// PickNodes: a node within `reach_px` is selected, a stem within half of that or of its width gets a node. OnlyPlace: nodes and stems nearby are passed over, to
+/// place a click close to one.
 enum class Picking { PickNodes, OnlyPlace };
 
 struct PhotoClick {
   std::string view;
   PhotoPoint at;
   double reach_px = 8;  ///< px of the photo
+  double stem_px = 0;   ///< width of the stem that is seen there; 0: none is
   Picking picking = Picking::PickNodes;
 };
+
+/// A place on a stem between two of its nodes, as clicked in a view.
+struct PlaceOnStem {
+  document::StemId stem;
+  document::NodeId below, above;  ///< the nodes that it is between
+  double distance_px = 0;
+};
+/// The stem segment nearest to a click, within its reach; both ends must be clicked in the view.
+[[nodiscard]] std::optional<PlaceOnStem> placeOnStem(const document::Project& project, const PhotoClick& click);
+/// A new node there, clicked in this view.
+[[nodiscard]] document::Step insertAt(const document::Project& project, const PlaceOnStem& place, const PhotoClick& click);
 
 /// `way`: the places along the stem from the selected node to the click, where they were traced; the click is the last of them. A stem
 /// that goes on, or a branch that begins, gets a node at each. Any other click is as without a way.
@@ -56,6 +73,10 @@ struct PhotoClick {
 
 /// The node with the nearest click in the view, within reach.
 [[nodiscard]] std::optional<document::NodeId> nodeAt(const document::Project& project, const PhotoClick& click);
+
+/// The stem whose line a click is on: nearer than half the reach of a node, or than half the width of the stem that is seen there, since a
+/// followed stem's line is not its centre everywhere.
+[[nodiscard]] std::optional<PlaceOnStem> lineAt(const document::Project& project, PhotoClick click);
 
 /// The stem to which a node's colour and its neighbours belong: the one it is on beyond its beginning, else the first that begins with it.
 [[nodiscard]] std::optional<document::StemId> stemOf(const document::Project& project, document::NodeId node);

@@ -4,6 +4,8 @@
 
 #include "skeleton3d/camera.hpp"
 
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace axil::ui {
@@ -12,5 +14,8 @@ namespace axil::ui {
 /// from `middle`, the middle of the plant, the plant may be (project's unit).
 [[nodiscard]] std::vector<PhotoPoint> epipolarLine(const skeleton3d::Camera& from, PhotoPoint at, const skeleton3d::Camera& to, PlantPoint middle,
                                                    double reach);
+
+/// Where that line crosses the straight way from `a` to `b`; nothing where it does not, or runs too nearly along it to say.
+[[nodiscard]] std::optional<PhotoPoint> crossing(std::span<const PhotoPoint> line, PhotoPoint a, PhotoPoint b);
 
 }  // namespace axil::ui

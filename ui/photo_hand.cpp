@@ -1,3 +1,4 @@
+#include "ui/epipolar.hpp"
 #include "ui/leaf_steps.hpp"
 #include "ui/photo_pane_interop.hpp"
 #include "ui/stem_steps.hpp"
@@ -33,11 +34,24 @@ PhotoClick clickAt(const Pane& pane, PhotoPoint at) {
   return {.view = pane.name(), .at = at, .reach_px = pane.reach(), .picking = ImGui::GetIO().KeyShift ? Picking::OnlyPlace : Picking::PickNodes};
 }
 
+/// With the stem that is seen there.
+PhotoClick clickOn(const Pane& pane, PhotoPoint at, const std::optional<skeleton3d::RidgeReading>& stem) {
+  PhotoClick click = clickAt(pane, at);
+  if (stem) click.stem_px = stem->width_px;
+  return click;
+}
+
+PhotoClick onlyPlaced(const Pane& pane, PhotoPoint at) {
+  PhotoClick click = clickAt(pane, at);
+  click.picking = Picking::OnlyPlace;
+  return click;
+}
+
 std::string numberOf(std::optional<NodeId> id) { return id ? std::to_string(id->value) : ""; }
 std::string numberOf(std::optional<StemId> id) { return id ? std::to_string(id->value) : ""; }
 
 void sayWhat(const Pane& pane, const ClickMeaning& meaning) {
-  static constexpr std::array<const char*, 6> kKeys = {"click_nothing", "click_select", "click_place", "click_extend", "click_branch", "click_begin"};
+  static constexpr std::array<const char*, 7> kKeys = {"click_nothing", "click_select", "click_place", "click_insert", "click_extend", "click_branch", "click_begin"};
   const char* key = kKeys[static_cast<std::size_t>(meaning.kind)];
   if (meaning.kind == ClickKind::Nothing && pane.state().way == Way::Stems && !pane.panel.project.stems.empty()) key = "click_nothing_stems";
   pane.state().status = filled(pane.panel.t(key), {{"node", numberOf(meaning.node)}, {"stem", numberOf(meaning.stem)}, {"view", pane.name()}});
@@ -61,10 +75,19 @@ void sayTool(const Pane& pane) {
 }
 
 /// The centre line of the stem near `at`. Nothing where snapping is off or no stem is there.
-std::optional<skeleton3d::RidgeReading> ridgeNear(const Pane& pane, PhotoPoint at) {
+std::optional<skeleton3d::RidgeReading> ridgeNear(const UiState& state, const skeleton3d::Photo* photo, PhotoPoint at, double zoom) {
   constexpr double kReach_px = 10, kMost_px = 40;  // of the screen; of the photo, so that a snap keeps up with the mouse
-  if (!pane.state().snap || pane.photo == nullptr || !pane.photo->tiles) return std::nullopt;
-  return skeleton3d::snapClick(pane.photo->tiles->photo(), at, {.reach_px = std::clamp(kReach_px / pane.lens.frame.zoom, 2.0, kMost_px)});
+  if (!state.snap || photo == nullptr) return std::nullopt;
+  return skeleton3d::snapClick(*photo, at, {.reach_px = std::clamp(kReach_px / zoom, 2.0, kMost_px)});
+}
+
+std::optional<skeleton3d::RidgeReading> ridgeNear(const Pane& pane, PhotoPoint at) {
+  return ridgeNear(pane.state(), pane.photo != nullptr && pane.photo->tiles ? &pane.photo->tiles->photo() : nullptr, at, pane.lens.frame.zoom);
+}
+
+/// The same, where a click may have to do with a stem.
+std::optional<skeleton3d::RidgeReading> stemUnder(const Pane& pane, PhotoPoint at) {
+  return pane.state().way == Way::Stems ? ridgeNear(pane, at) : std::nullopt;
 }
 
 /// Whether the camera of another photo is known, so that a traced stem can be found there too.
@@ -100,6 +123,39 @@ std::optional<ProposedStem> wholeStem(const Pane& pane, const ClickMeaning& mean
   if (!question || question->nodes.size() < 3) return std::nullopt;
   question->options.endInOther = at;
   return proposedStem(*question);
+}
+
+/// A node put between two others has its place in the other photos too, where those are clicked: where its click's line crosses the stem.
+void addElsewhere(const Pane& pane, const PlaceOnStem& place, NodeId node, PhotoPoint at, Step& step) {
+  const skeleton3d::Camera* here = cameraOf(pane.panel, pane.name());
+  const auto placed = pane.panel.placed();
+  if (here == nullptr || !placed) return;
+  const skeleton3d::Reach scene = placed->scene();
+  for (const document::ProjectView& view : pane.panel.project.views) {
+    const skeleton3d::Camera* there = cameraOf(pane.panel, view.view.name);
+    const PhotoPoint* below = document::clickOf(pane.panel.project, place.below, view.view.name);
+    const PhotoPoint* above = document::clickOf(pane.panel.project, place.above, view.view.name);
+    if (view.view.name == pane.name() || there == nullptr || below == nullptr || above == nullptr) continue;
+    const auto crossed = crossing(epipolarLine(*here, at, *there, scene.centre, scene.radius), *below, *above);
+    if (!crossed) continue;
+    const auto photo = pane.panel.photos.photoOf(pane.panel.session.openProject(), view);
+    const auto ridge = ridgeNear(pane.state(), photo.get(), *crossed, pane.lens.frame.zoom);
+    step.emplace_back(document::AddClick{node, view.view.name, ridge ? ridge->at : *crossed});
+  }
+}
+
+/// A node on a stem's line, on its centre line where there is one.
+Step insertHere(const Pane& pane, const PlaceOnStem& place, PhotoClick click, const std::optional<skeleton3d::RidgeReading>& ridge) {
+  if (ridge) click.at = ridge->at;
+  Step step = insertAt(pane.panel.project, place, click);
+  addElsewhere(pane, place, document::nextNodeId(pane.panel.project), click.at, step);
+  return step;
+}
+
+/// Outside the Stems part of the way a click only selects.
+ClickMeaning meaningHere(const Pane& pane, PhotoPoint at, const std::optional<skeleton3d::RidgeReading>& stem) {
+  const ClickMeaning meaning = meaningOf(pane.panel.project, pane.state().selection, clickOn(pane, at, stem));
+  return meaning.kind == ClickKind::Select || pane.state().way == Way::Stems ? meaning : ClickMeaning{};
 }
 
 /// Whether a click of this meaning puts a node somewhere.
@@ -200,18 +256,20 @@ Taken clicked(const Pane& pane, PhotoPoint at) {
     if (const auto node = nodeAt(pane.panel.project, clickAt(pane, at))) state.selection.has(*node) ? state.selection.remove(*node) : state.selection.add(*node);
     return std::nullopt;
   }
-  ClickMeaning meaning = meaningHere(pane, at);
+  const auto ridge = stemUnder(pane, at);
+  ClickMeaning meaning = meaningHere(pane, at, ridge);
   if (meaning.kind == ClickKind::Nothing) return std::nullopt;
+  const PhotoPoint centre = ridge ? ridge->at : at;
+  if (meaning.kind == ClickKind::Insert) {
+    const PhotoClick click = clickOn(pane, at, ridge);
+    state.selection = meaning.after;
+    return insertHere(pane, *lineAt(pane.panel.project, click), click, ridge);
+  }
   if (const auto wire = wireTo(pane, meaning, at)) {
-    PhotoClick click = clickAt(pane, wire->nodes.back().at);
-    click.picking = Picking::OnlyPlace;
-    meaning = meaningAlong(pane.panel.project, state.selection, click, placesOf(*wire));
+    meaning = meaningAlong(pane.panel.project, state.selection, onlyPlaced(pane, wire->nodes.back().at), placesOf(*wire));
   } else if (places(meaning)) {
-    const auto ridge = ridgeNear(pane, at);
-    if (const auto whole = wholeStem(pane, meaning, ridge ? ridge->at : at)) return Taken{stepOf(*whole)};
-    PhotoClick click = clickAt(pane, ridge ? ridge->at : at);
-    click.picking = Picking::OnlyPlace;
-    if (ridge) meaning = meaningOf(pane.panel.project, state.selection, click);
+    if (const auto whole = wholeStem(pane, meaning, centre)) return Taken{stepOf(*whole)};
+    if (ridge) meaning = meaningOf(pane.panel.project, state.selection, onlyPlaced(pane, centre));
   }
   state.selection = meaning.after;
   return meaning.step.empty() ? Taken{} : Taken{meaning.step};
@@ -290,7 +348,7 @@ Taken placeMenu(const Pane& pane) {
   } else {
     const PhotoClick click{.view = menu.view, .at = menu.at, .reach_px = menu.reach_px};
     const auto place = placeOnStem(pane.panel.project, click);
-    if (menuRow(pane, "insert_node", place.has_value())) taken = insertAt(pane.panel.project, *place, click);
+    if (menuRow(pane, "insert_node", place.has_value())) taken = insertHere(pane, *place, click, stemUnder(pane, menu.at));
   }
   if (menuRow(pane, "delete_stem_whole")) taken = Step{document::RemoveStem{*menu.stem}};
   ImGui::EndPopup();
@@ -298,12 +356,6 @@ Taken placeMenu(const Pane& pane) {
 }
 
 }  // namespace
-
-/// Outside the Stems part of the way a click only selects.
-ClickMeaning meaningHere(const Pane& pane, PhotoPoint at) {
-  const ClickMeaning meaning = meaningOf(pane.panel.project, pane.state().selection, clickAt(pane, at));
-  return meaning.kind == ClickKind::Select || pane.state().way == Way::Stems ? meaning : ClickMeaning{};
-}
 
 Taken photoHand(Pane& pane) {
   UiState& state = pane.state();
@@ -328,10 +380,12 @@ Taken photoHand(Pane& pane) {
   if (state.pick) sayPick(pane);
   else if (state.way == Way::Photos && state.tool != PhotoTool::None) sayTool(pane);
   else {
-    const ClickMeaning meaning = meaningHere(pane, at);
+    const auto ridge = stemUnder(pane, at);
+    const ClickMeaning meaning = meaningHere(pane, at, ridge);
     sayWhat(pane, meaning);
     state.wire = wireTo(pane, meaning, at);
-    if (places(meaning) && !state.wire) state.ridge = ridgeNear(pane, at);
+    if (places(meaning) && !state.wire) state.ridge = ridge;
+    state.meaning = meaning;
     if (state.wire) state.status += "  " + filled(pane.panel.t("follows"), {{"n", std::to_string(state.wire->nodes.size() - 1)}});
     if (meaning.kind == ClickKind::Place && pane.panel.proposals.in(pane.name()) != nullptr) state.status += "  " + std::string(pane.panel.t("proposal_take"));
     if (state.ridge) state.status += "  " + filled(pane.panel.t("snaps"), {{"percent", std::to_string(std::lround(100 * state.ridge->confidence))}});

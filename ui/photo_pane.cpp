@@ -110,12 +110,10 @@ void drawLine(const Pane& pane, const std::vector<PhotoPoint>& line, Colour colo
 void drawEpipolar(const Pane& pane) {
   const skeleton3d::Camera* here = cameraOf(pane.panel, pane.name());
   if (here == nullptr) return;
-  const auto* grown = pane.panel.following.grammar(document::GrammarKind::Initial);
-  const PlantPoint middle = grown != nullptr ? grown->middle : PlantPoint{};
-  const double reach = grown != nullptr ? 1.6 * grown->reach : 1;
+  const skeleton3d::Reach scene = pane.panel.placed()->scene();
   const auto lineFrom = [&](const std::string& view, PhotoPoint at) {
     const skeleton3d::Camera* there = cameraOf(pane.panel, view);
-    return there == nullptr ? std::vector<PhotoPoint>{} : epipolarLine(*there, at, *here, middle, reach);
+    return there == nullptr ? std::vector<PhotoPoint>{} : epipolarLine(*there, at, *here, scene.centre, scene.radius);
   };
   const auto selected = pane.state().selection.node ? document::nodeWithId(pane.panel.project, *pane.state().selection.node) : std::nullopt;
   if (selected) {
@@ -261,8 +259,8 @@ void drawCandidates(const Pane& pane) {
 /// What a click would add, before it is clicked.
 void drawGhost(const Pane& pane) {
   const auto& hover = pane.state().hover;
-  if (!hover || hover->first != pane.name() || pane.state().way != Way::Stems || pane.state().drag) return;
-  const ClickMeaning meaning = meaningHere(pane, hover->second);
+  if (!hover || hover->first != pane.name() || pane.state().way != Way::Stems || pane.state().drag || !pane.state().meaning) return;
+  const ClickMeaning& meaning = *pane.state().meaning;
   const Colour colour = meaning.stem ? colourOf(*meaning.stem) : meaning.kind == ClickKind::Branch ? colourOf(document::nextStemId(pane.panel.project)) : rgb(0xFFFFFF);
   const auto& ridge = pane.state().ridge;
   const ImVec2 mouse = pane.lens.onScreen(ridge ? ridge->at : hover->second);

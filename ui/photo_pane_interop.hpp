@@ -48,7 +48,5 @@ struct Seen {
 // ---- the hand ----------------------------------------------------------------------------------------------------------
 /// The mouse in this pane: zooms, pans, says what a click would do, and gives the step that was taken.
 [[nodiscard]] Taken photoHand(Pane& pane);
-/// What a click here would do.
-[[nodiscard]] ClickMeaning meaningHere(const Pane& pane, PhotoPoint at);
 
 }  // namespace axil::ui

@@ -11,7 +11,8 @@ using document::NodeId;
 using document::Project;
 
 /// A way that is less sure than this is no proposal.
-constexpr double kLeastConfidence = 0.25;
+constexpr double kLeastConfidence = 0.25;  // where photos agree
+constexpr double kSureAlone = 0.5;
 constexpr double kLineStep_px = 4;
 /// A way that runs this close to clicked stems for more than this share of it is one of them.
 constexpr double kTaken_px = 5, kTakenShare = 0.5;
@@ -102,7 +103,20 @@ skeleton3d::Reach Placed::reach() const {
   std::vector<PlantPoint> places;
   if (skeleton != nullptr)
     for (const skeleton3d::Node& node : skeleton->nodes) places.push_back(node.position);
-  return skeleton3d::reachOf(places, 1);
+  return places.size() < 2 ? scene() : skeleton3d::reachOf(places, 1);
+}
+
+skeleton3d::Reach Placed::scene() const {
+  double radius = 0;
+  for (const skeleton3d::View& view : measured.views) {
+    if (view.camera.model == skeleton3d::CameraModel::Unknown) continue;
+    const glm::dvec2 size(view.size_px);
+    for (const glm::dvec2 corner : {glm::dvec2(0, 0), {size.x, 0}, {0, size.y}, size}) {
+      const skeleton3d::Ray ray = skeleton3d::rayThrough(view.camera, {corner});
+      radius = std::max(radius, glm::length(glm::cross(ray.origin.at, ray.direction.unit())));
+    }
+  }
+  return {{}, std::max(radius, 1e-9)};
 }
 
 std::optional<StemQuestion> stemQuestion(const Project& project, const Placed& placed, NodeId tip, const std::string& view, const skeleton3d::LiveWire& otherPhoto) {
@@ -141,6 +155,7 @@ std::vector<ProposedStem> agreeing(std::span<const StemQuestion> questions) {
   const double apart = kApartOfReach * questions.front().reach.radius;
   const PlantPoint tip = stems.front().tip;
   std::erase_if(stems, [&](const ProposedStem& stem) { return glm::distance(stem.tip.at, tip.at) > apart; });
+  if (stems.size() == 1 && stems.front().confidence < kSureAlone) stems.clear();
   return stems;
 }
 

@@ -45,7 +45,8 @@ struct Placed {
 
   [[nodiscard]] const skeleton3d::View* view(const std::string& name) const;  ///< null while its camera is not known
   [[nodiscard]] const skeleton3d::Node* node(document::NodeId id) const;
-  [[nodiscard]] skeleton3d::Reach reach() const;
+  [[nodiscard]] skeleton3d::Reach reach() const;                                ///< where the plant may be: about its nodes, before those all that the photos show
+  [[nodiscard]] skeleton3d::Reach scene() const;                                ///< all that the photos show, about the origin
 };
 
 /// Nothing where the tip is clicked in `view`, or no node before it is clicked in both photos, or a camera is not known.
@@ -53,7 +54,8 @@ struct Placed {
                                                        const skeleton3d::LiveWire& otherPhoto);
 /// Nothing where the other photo shows no such stem, or one that is clicked already.
 [[nodiscard]] std::optional<ProposedStem> proposedStem(const StemQuestion& question);
-/// For several photos at once: of proposals that put the tip at different places the surest stays.
+/// For several photos at once: of proposals that put the tip at different places the surest stays; one that no other photo agrees with
+/// must be surer.
 [[nodiscard]] std::vector<ProposedStem> agreeing(std::span<const StemQuestion> questions);
 [[nodiscard]] document::Step stepOf(const ProposedStem& proposed);
 

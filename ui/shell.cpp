@@ -193,6 +193,7 @@ std::vector<Step> shell(const Panel& panel) {
   const Area rightArea{screen.x - right, top, right, screen.y - top - status - below - between};
   const Area middle{left + between, top, std::max(64.0f, screen.x - left - right - 2 * between), std::max(64.0f, screen.y - top - status - below - between)};
   panel.state.hover.reset();
+  panel.state.meaning.reset();
   panel.state.ridge.reset();
   panel.state.wire.reset();
   panel.state.status.clear();

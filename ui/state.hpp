@@ -213,6 +213,7 @@ struct UiState {
   std::optional<int> maximised;  ///< pane 0 to 3
   std::optional<std::pair<std::string, PhotoPoint>> hover;  ///< which photo the mouse is over, and where
   bool snap = true;                                      ///< clicks go to the centre line of the stem they are near
+  std::optional<ClickMeaning> meaning;                   ///< of a click where the mouse is, this frame
   std::optional<skeleton3d::RidgeReading> ridge;         ///< under the mouse, this frame
   bool trace = true;                                     ///< a stem is followed from the selected node to the mouse
   std::optional<Candidates> candidates;                  ///< while the photos are as they were

@@ -18,15 +18,4 @@ namespace axil::ui {
 /// `stem` begins at `node`.
 [[nodiscard]] std::optional<document::Step> attachTo(const document::Project& project, document::StemId stem, document::NodeId node);
 
-/// A place on a stem between two of its nodes, as clicked in a view.
-struct PlaceOnStem {
-  document::StemId stem;
-  document::NodeId before;  ///< the next node up the stem
-  double distance_px = 0;
-};
-/// The stem segment nearest to a click, within its reach; both ends must be clicked in the view.
-[[nodiscard]] std::optional<PlaceOnStem> placeOnStem(const document::Project& project, const PhotoClick& click);
-/// A new node there.
-[[nodiscard]] document::Step insertAt(const document::Project& project, const PlaceOnStem& place, const PhotoClick& click);
-
 }  // namespace axil::ui

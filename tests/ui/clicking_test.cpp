@@ -53,6 +53,22 @@ TEST(Clicking, ANodeInTheMiddleBranches) {
   EXPECT_EQ(printed(meaning), "add_node 4 front 60 60 ; start_branch 2 2 ; append_node 2 4");
 }
 
+TEST(Clicking, OnAStemsLineItGetsANodeToBranchFrom) {
+  const Project project = projectOf(std::string(kViews) + "add_node 1 front 0 0 ; add_stem 1 1\nadd_node 2 front 0 50 ; append_node 1 2\nadd_node 3 front 60 60 ; start_branch 2 2 ; append_node 2 3\n");
+  const auto meaning = meaningOf(project, {NodeId(3)}, at("front", 3, 25));
+  EXPECT_EQ(meaning.kind, ClickKind::Insert);
+  EXPECT_EQ(printed(meaning), "add_node 4 front 3 25 ; insert_node 1 4 2");
+  EXPECT_EQ(meaning.after.node, NodeId(4));
+  EXPECT_EQ(meaningOf(project, {}, at("front", 3, 25)).kind, ClickKind::Insert) << "with nothing selected too";
+  EXPECT_EQ(meaningOf(project, {NodeId(3)}, at("front", 5, 25)).kind, ClickKind::Extend) << "half the reach of a node";
+  PhotoClick past = at("front", 3, 25);
+  past.picking = Picking::OnlyPlace;
+  EXPECT_EQ(meaningOf(project, {NodeId(3)}, past).kind, ClickKind::Extend) << "a stem can be crossed";
+  EXPECT_EQ(meaningOf(project, {NodeId(2)}, at("front", 50, 58)).kind, ClickKind::Branch) << "a new branch may cross another";
+  EXPECT_EQ(meaningOf(project, {NodeId(2)}, at("front", 3, 25)).kind, ClickKind::Insert) << "but is not laid along its own stem";
+  EXPECT_EQ(meaningOf(project, {NodeId(1)}, at("right", 3, 25)).kind, ClickKind::Place) << "a click that is missing comes first";
+}
+
 TEST(Clicking, OnANodeSelectsItUnlessOnlyPlacingIsWanted) {
   const Project project = projectOf(std::string(kViews) + "add_node 1 front 100 200 ; add_stem 1 1\n");
   EXPECT_EQ(meaningOf(project, {}, at("front", 104, 203)).kind, ClickKind::Select);

@@ -34,5 +34,16 @@ TEST(EpipolarLine, IsEmptyWhereACameraIsUnknown) {
   EXPECT_TRUE(epipolarLine(camera("right"), {{1, 2}}, {}, {}, 1).empty());
 }
 
+TEST(EpipolarLine, CrossesAStemWhereItsPointIsSeen) {
+  const PlantPoint below{{0.1, 0.6, -0.15}}, above{{0.14, 0.8, -0.1}}, between{(below.at + above.at) / 2.0};
+  const auto seen = [](PlantPoint p) { return skeleton3d::project(camera("right"), p); };
+  const auto line = epipolarLine(camera("front"), skeleton3d::project(camera("front"), between), camera("right"), {{0, 0.5, 0}}, 1);
+  const auto crossed = crossing(line, seen(below), seen(above));
+  ASSERT_TRUE(crossed);
+  EXPECT_LT(glm::distance(crossed->px, seen(between).px), 0.5);
+  EXPECT_FALSE(crossing(line, seen(above), seen({{0.18, 1.0, -0.05}}))) << "another part of the stem";
+  EXPECT_FALSE(crossing(line, line.front(), line.back())) << "along the line every place would do";
+}
+
 }  // namespace
 }  // namespace axil::ui
