@@ -12,7 +12,7 @@ using document::Project;
 
 /// A way that is less sure than this is no proposal.
 constexpr double kLeastConfidence = 0.25;  // where photos agree
-constexpr double kSureAlone = 0.5;
+constexpr double kSureAlone = 0.4;
 constexpr double kLineStep_px = 4;
 /// A way that runs this close to clicked stems for more than this share of it is one of them.
 constexpr double kTaken_px = 5, kTakenShare = 0.5;

@@ -54,11 +54,12 @@ TEST(Clicking, ANodeInTheMiddleBranches) {
 }
 
 TEST(Clicking, OnAStemsLineItGetsANodeToBranchFrom) {
-  const Project project = projectOf(std::string(kViews) + "add_node 1 front 0 0 ; add_stem 1 1\nadd_node 2 front 0 50 ; append_node 1 2\nadd_node 3 front 60 60 ; start_branch 2 2 ; append_node 2 3\n");
+  const Project project = projectOf(std::string(kViews) + "add_node 1 front 0 0 ; add_stem 1 1\nadd_node 2 front 0 50 ; append_node 1 2\nadd_node 3 front 60 60 ; start_branch 2 2 ; append_node 2 3\n" +
+                                     "add_node 4 front 0 99 ; append_node 1 4\n");
   const auto meaning = meaningOf(project, {NodeId(3)}, at("front", 3, 25));
   EXPECT_EQ(meaning.kind, ClickKind::Insert);
-  EXPECT_EQ(printed(meaning), "add_node 4 front 3 25 ; insert_node 1 4 2");
-  EXPECT_EQ(meaning.after.node, NodeId(4));
+  EXPECT_EQ(printed(meaning), "add_node 5 front 3 25 ; insert_node 1 5 2");
+  EXPECT_EQ(meaning.after.node, NodeId(5));
   EXPECT_EQ(meaningOf(project, {}, at("front", 3, 25)).kind, ClickKind::Insert) << "with nothing selected too";
   EXPECT_EQ(meaningOf(project, {NodeId(3)}, at("front", 5, 25)).kind, ClickKind::Extend) << "half the reach of a node";
   PhotoClick past = at("front", 3, 25);
