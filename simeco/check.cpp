@@ -10,6 +10,9 @@
 
 #include "base/angle.hpp"
 #include "base/text.hpp"
+#include "base/overloaded.hpp"
+#include "simeco/check_fold.hpp"
+#include "simeco/check_reach.hpp"
 #include "simeco/check_runaway.hpp"
 #include "simeco/language.hpp"
 #include "simeco/lsystem_language.hpp"
@@ -20,94 +23,8 @@ namespace axil::simeco {
 
 namespace {
 
-template <class... Ts>
-struct overloaded : Ts... {
-  using Ts::operator()...;
-};
-template <class... Ts>
-overloaded(Ts...) -> overloaded<Ts...>;
-
 // More general rules of one letter than these are not compared with every module: the work must stay linear in the text.
 constexpr std::size_t kMostGeneralRules = 64;
-
-const Number* numberIn(const Grammar& grammar, ExprId id) { return id.valid() ? std::get_if<Number>(&grammar.at(id).node) : nullptr; }
-const Name* nameIn(const Grammar& grammar, ExprId id) { return id.valid() ? std::get_if<Name>(&grammar.at(id).node) : nullptr; }
-
-double valueOf(BinaryOp op, double a, double b) {
-  switch (op) {
-    case BinaryOp::Add:
-      return a + b;
-    case BinaryOp::Subtract:
-      return a - b;
-    case BinaryOp::Multiply:
-      return a * b;
-    case BinaryOp::Divide:
-      return a / b;
-    case BinaryOp::Remainder:
-      return std::fmod(a, b);
-    case BinaryOp::Power:
-      return std::pow(a, b);
-    case BinaryOp::Less:
-      return a < b ? 1 : 0;
-    case BinaryOp::LessEqual:
-      return a <= b ? 1 : 0;
-    case BinaryOp::Greater:
-      return a > b ? 1 : 0;
-    case BinaryOp::GreaterEqual:
-      return a >= b ? 1 : 0;
-    case BinaryOp::Equal:
-      return a == b ? 1 : 0;
-    case BinaryOp::NotEqual:
-      return a != b ? 1 : 0;
-    case BinaryOp::And:
-      return a != 0 && b != 0 ? 1 : 0;
-    case BinaryOp::Or:
-      return a != 0 || b != 0 ? 1 : 0;
-  }
-  return 0;
-}
-
-/// The value of an expression whose only name is `parameter`; nothing when more is needed than that.
-class Folder {
- public:
-  Folder(const Grammar& grammar, std::string_view parameter, double value) : grammar_(grammar), parameter_(parameter), value_(value) {}
-
-  [[nodiscard]] std::optional<double> at(ExprId id, int depth = 0) const {
-    if (depth > kMostDepth) return std::nullopt;
-    using Value = std::optional<double>;
-    return std::visit(
-        overloaded{[](const Number& n) -> Value { return n.value; },
-                   [&](const Name& n) -> Value { return n.name == parameter_ ? Value(value_) : std::nullopt; },
-                   [](const Text&) -> Value { return std::nullopt; },
-                   [&](const Unary& n) -> Value {
-                     const Value v = at(n.operand, depth + 1);
-                     if (!v) return std::nullopt;
-                     return n.op == UnaryOp::Minus ? -*v : (*v == 0 ? 1.0 : 0.0);
-                   },
-                   [&](const Binary& n) -> Value {
-                     const Value a = at(n.left, depth + 1);
-                     const Value b = at(n.right, depth + 1);
-                     return a && b ? Value(valueOf(n.op, *a, *b)) : std::nullopt;
-                   },
-                   [&](const Chain& n) -> Value { return chain(n, depth); }, [](const Conditional&) -> Value { return std::nullopt; },
-                   [](const Call&) -> Value { return std::nullopt; }, [](const Element&) -> Value { return std::nullopt; }},
-        grammar_.at(id).node);
-  }
-
- private:
-  [[nodiscard]] std::optional<double> chain(const Chain& n, int depth) const {
-    for (std::size_t i = 0; i + 1 < n.operands.size(); ++i) {
-      const auto a = at(n.operands[i], depth + 1);
-      const auto b = at(n.operands[i + 1], depth + 1);
-      if (!a || !b) return std::nullopt;
-      if (valueOf(n.comparisons[i], *a, *b) == 0) return 0;
-    }
-    return 1;
-  }
-  const Grammar& grammar_;
-  std::string_view parameter_;
-  double value_;
-};
 
 /// What the rules of one plant do with one letter.
 struct LetterUse {
@@ -232,7 +149,7 @@ class Checker {
     const auto* call = std::get_if<Call>(&expr.node);
     const bool isThing = call && (call->function == "vector" || call->function == "RGBA" || call->function == "MTRL" || call->function == "sphere" || call->function == "box");
     if (isThing || std::holds_alternative<Text>(expr.node)) return report_.error(expr.where, "'" + a.name + "' is a number");
-    const auto known = Folder(grammar_, {}, 0).at(a.value);
+    const auto known = foldedWith(grammar_, a.value, {}, 0);
     if (!known) return;
     if (kind == ValueKind::Positive && !(*known > 0)) report_.error(expr.where, "'" + a.name + "' must be above 0");
     if (kind == ValueKind::NotNegative && !(*known >= 0)) report_.error(expr.where, "'" + a.name + "' must not be negative");
@@ -350,7 +267,7 @@ class Checker {
     for (const Module& m : p.predecessor) {
       if (m.letter != letter || m.arguments.empty()) continue;
       const Name* name = nameIn(grammar_, m.arguments[0]);
-      const auto holds = name ? Folder(grammar_, name->name, number).at(*p.condition) : std::nullopt;
+      const auto holds = name ? foldedWith(grammar_, *p.condition, name->name, number) : std::nullopt;
       if (!holds || *holds != 0) return true;
     }
     return false;
@@ -652,7 +569,7 @@ class Checker {
   }
   void binary(const Binary& n, SourceSpan where) {
     const bool divides = n.op == BinaryOp::Divide || n.op == BinaryOp::Remainder;
-    const auto divisor = divides ? Folder(grammar_, {}, 0).at(n.right) : std::nullopt;
+    const auto divisor = divides ? foldedWith(grammar_, n.right, {}, 0) : std::nullopt;
     if (divisor && *divisor == 0) report_.error(grammar_.at(n.right).where, "division by zero");
     if (n.op == BinaryOp::Remainder || n.op == BinaryOp::Power) since11("operators such as % and ^", where);
     if (n.op == BinaryOp::And || n.op == BinaryOp::Or) since11("operators such as && and ||", where);
@@ -679,45 +596,22 @@ class Checker {
 
   // ---- what nothing ever reaches ----
 
-  /// Rules behind one that takes everything they could take, and rules for modules that nothing makes.
+  /// Rules that rules above them or their own condition keep from firing, and rules for modules that nothing makes.
   void neverFired(const std::vector<Production>& productions) {
-    std::unordered_set<std::string> exact;
-    std::unordered_map<std::string, std::vector<const Module*>> general;
-    for (const Production& p : productions) {
-      if (p.predecessor.size() != 1) continue;
-      const Module& m = p.predecessor[0];
-      if (isShadowed(m, exact, general)) {
-        report_.warning(p.where, "the rule never fires: a rule above rewrites every " + printModule(grammar_, m),
+    const auto unreached = unreachedRules(grammar_, productions, Order::FirstThatFits);
+    for (std::size_t i = 0; i < productions.size(); ++i) {
+      const Production& p = productions[i];
+      if (p.predecessor.empty()) continue;
+      const std::string module = printModule(grammar_, p.predecessor[0]);
+      if (unreached[i] == Unreached::ByItsCondition) {
+        report_.warning(p.where, "the rule never fires: its condition never holds", "compare again, or leave the rule out");
+      } else if (unreached[i] == Unreached::ByRulesAbove) {
+        report_.warning(p.where, p.condition ? "the rule never fires: rules above rewrite every " + module + " for which its condition holds" : "the rule never fires: a rule above rewrites every " + module,
                         "move it up, or for a choice write both successors in one rule with weights");
-        continue;
-      }
-      if (isNeverMade(m)) report_.warning(p.where, "the rule never fires: nothing makes " + printModule(grammar_, m));
-      if (p.condition || !p.left.empty() || !p.right.empty()) continue;
-      if (isAllNumbers(m)) {
-        exact.insert(keyOf(m));
-      } else if (isAllNames(m)) {
-        std::vector<const Module*>& list = general[m.letter];
-        if (list.size() < kMostGeneralRules) list.push_back(&m);
+      } else if (p.predecessor.size() == 1 && isNeverMade(p.predecessor[0])) {
+        report_.warning(p.where, "the rule never fires: nothing makes " + module);
       }
     }
-  }
-  bool isAllNumbers(const Module& m) const {
-    return std::all_of(m.arguments.begin(), m.arguments.end(), [&](ExprId id) { return numberIn(grammar_, id) != nullptr; });
-  }
-  bool isAllNames(const Module& m) const {
-    return std::all_of(m.arguments.begin(), m.arguments.end(), [&](ExprId id) { return nameIn(grammar_, id) != nullptr; });
-  }
-  std::string keyOf(const Module& m) const {
-    std::string key = m.letter;
-    for (const ExprId id : m.arguments) key += ',' + shortest(numberIn(grammar_, id)->value);
-    return key;
-  }
-  bool isShadowed(const Module& m, const std::unordered_set<std::string>& exact,
-                  const std::unordered_map<std::string, std::vector<const Module*>>& general) const {
-    const auto found = general.find(m.letter);
-    const auto covers = [&](const Module* other) { return other->arguments.size() == m.arguments.size(); };
-    if (found != general.end() && std::any_of(found->second.begin(), found->second.end(), covers)) return true;
-    return isAllNumbers(m) && exact.contains(keyOf(m));
   }
   bool isNeverMade(const Module& m) const {
     const auto use = uses_.find(m.letter);

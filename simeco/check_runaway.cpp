@@ -1,5 +1,7 @@
 #include "simeco/check_runaway.hpp"
 
+#include "simeco/check_reach.hpp"
+
 #include "simeco/derive.hpp"
 #include "simeco/language.hpp"
 
@@ -128,8 +130,8 @@ class Estimate {
       return nullptr;  // it depends on the value
     }
     if (rule == nullptr) return nullptr;
-    const bool bare = !rule->condition && rule->left.empty() && rule->right.empty() && rule->predecessor.size() == 1 && rule->before.empty();
-    return bare && furtherAreNames(rule->predecessor[0]) ? rule : nullptr;
+    const bool always = rule->predecessor.size() == 1 && rule->before.empty() && firesAlways(grammar_, *rule);
+    return always && furtherAreNames(rule->predecessor[0]) ? rule : nullptr;
   }
   using RuleMap = std::map<SymbolKey, const Production*>;
   static const Production* ruleIn(const RuleMap& rules, const SymbolKey& key) {

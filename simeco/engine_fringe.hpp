@@ -26,12 +26,8 @@ class LeftFringe {
   }
   /// Leaves the branch: to before the bracket that opened it.
   void leave() {
-    std::size_t depth = 0;
-    while (at_ > 0) {
-      const std::uint8_t role = plans_.hot[codes_[--at_]].role;
-      if (role == Plans::Closes) ++depth;
-      if (role == Plans::Opens && depth-- == 0) return;
-    }
+    int depth = 0;
+    while (at_ > 0 && depth <= 0) depth += plans_.leftTurns[codes_[--at_]].depth;
   }
   [[nodiscard]] SymbolCode nobody() const { return static_cast<SymbolCode>(plans_.codes); }
 
@@ -57,12 +53,8 @@ class RightFringe {
     return nobody();
   }
   void leave() {
-    std::size_t depth = 0;
-    while (at_ < codes_.size()) {
-      const std::uint8_t role = plans_.hot[codes_[at_++]].role;
-      if (role == Plans::Opens) ++depth;
-      if (role == Plans::Closes && depth-- == 0) return;
-    }
+    int depth = 0;
+    while (at_ < codes_.size() && depth <= 0) depth += plans_.rightTurns[codes_[at_++]].depth;
   }
   [[nodiscard]] SymbolCode nobody() const { return static_cast<SymbolCode>(plans_.codes); }
 
@@ -71,5 +63,43 @@ class RightFringe {
   std::span<const SymbolCode> codes_;
   std::size_t at_;
 };
+
+/// Who was nearest where each open level began. The lowest place stays free, so that nothing is asked before a level is left; one that
+/// was not opened within the part is left with the fringe.
+class Levels {
+ public:
+  /// Goes on with the levels that are open in `places`; none are where it is empty.
+  explicit Levels(Buffer<SymbolCode>& places) : places_(places) {
+    if (places_.size() == 0) places_.setSize(1);
+  }
+
+  /// Room for so many modules; the free place above the levels.
+  [[nodiscard]] SymbolCode* roomFor(std::size_t modules) {
+    places_.reserveMore(places_.size() + modules + 1);
+    return places_.data() + places_.size();
+  }
+  void keep(const SymbolCode* top) { places_.setSize(static_cast<std::size_t>(top - places_.data())); }
+
+  /// The place below all levels; it does not move until room is made again.
+  [[nodiscard]] const SymbolCode* floor() const { return places_.data(); }
+
+ private:
+  Buffer<SymbolCode>& places_;
+};
+
+/// Who is nearest behind a module that means `turn`; `top` is the free place above the levels.
+template <class Fringe>
+[[nodiscard]] inline SymbolCode nearestBehind(const NearestTurn& turn, SymbolCode nearest, SymbolCode*& top, const SymbolCode* floor, Fringe& fringe) {
+  const SymbolCode popped = top[-1];
+  *top = nearest;
+  nearest = static_cast<SymbolCode>((popped & turn.pop) | (nearest & turn.keep) | turn.set);
+  top += turn.depth;
+  if (top == floor) [[unlikely]] {
+    ++top;
+    fringe.leave();
+    return fringe.nearest();
+  }
+  return nearest;
+}
 
 }  // namespace axil::simeco

@@ -5,6 +5,8 @@
 
 #include "simeco/engine_part_pass.hpp"
 
+#include <cstddef>
+
 namespace axil::simeco {
 
 inline void PartPass::drawAhead(Draws& draws, std::size_t begin, std::size_t end) const {
@@ -50,6 +52,10 @@ SymbolCode PartPass::rewriteEntries(std::size_t begin, std::size_t end, SymbolCo
   const Identity* const who = old_.identities.data();
   Identity* born = identified ? lane_.out->identities.data() + lane_.out->codes.size() : nullptr;
   SymbolCode* to = lane_.out->codes.data() + lane_.out->codes.size();
+  const NearestTurn* const turns = plans_.leftTurns.data();
+  Levels levels(lane_.stack);
+  SymbolCode* top = withLeft ? levels.roomFor(end - begin) : nullptr;
+  const SymbolCode* const floor = levels.floor();
   std::size_t fired = 0, drawn = 0;
   const ByteEntry* fires = nullptr;
   for (std::size_t at = begin; at < end; ++at) {
@@ -77,17 +83,40 @@ SymbolCode PartPass::rewriteEntries(std::size_t begin, std::size_t end, SymbolCo
     }
     to += made.length;
     fired += made.fires;
-    if constexpr (withLeft) {
-      if (symbol.role >= Plans::Opens)
-        last = leftAfter(symbol.role, code, last, fringe);
-      else
-        last = symbol.role == Plans::Considered ? code : last;
-    }
+    if constexpr (withLeft) last = nearestBehind(turns[code], last, top, floor, fringe);
   }
+  if constexpr (withLeft) levels.keep(top);
   if (fires != nullptr) rule_ = fires->longer->rule;
   lane_.fired += fired;
   lane_.out->codes.setSize(static_cast<std::size_t>(to - lane_.out->codes.data()));
   if constexpr (identified) lane_.out->identities.setSize(lane_.out->codes.size());
+  return last;
+}
+
+inline SymbolCode PartPass::rewritePairs(std::size_t begin, std::size_t end, SymbolCode last, LeftFringe& fringe) {
+  const SymbolCode* const pairs = s_.rightCodes.data();
+  const NearestTurn* const turns = plans_.pairTurns.data();
+  const std::uint16_t* const numbers = plans_.pairEntries.data();
+  const ByteEntry* const entries = plans_.entries.data();
+  Levels levels(lane_.stack);
+  SymbolCode* top = levels.roomFor(end - begin);
+  const SymbolCode* const floor = levels.floor();
+  SymbolCode* to = lane_.out->codes.data() + lane_.out->codes.size();
+  std::uint64_t counts = 0;  // modules written in the lower half, rules that fired in the upper one
+  for (std::size_t at = begin; at < end; ++at) {
+    const SymbolCode pair = pairs[at];
+    const ByteEntry& made = entries[numbers[std::size_t{last} << 8 | pair]];
+    std::memcpy(to, made.codes.data(), made.codes.size());
+    std::uint64_t count;
+    static_assert(offsetof(ByteEntry, fires) == offsetof(ByteEntry, length) + 4 && std::endian::native == std::endian::little);
+    std::memcpy(&count, &made.length, sizeof count);
+    counts += count;
+    to += made.length;
+    last = nearestBehind(turns[pair], last, top, floor, fringe);
+  }
+  levels.keep(top);
+  lane_.fired += counts >> 32;
+  lane_.out->codes.setSize(static_cast<std::size_t>(to - lane_.out->codes.data()));
   return last;
 }
 

@@ -66,7 +66,7 @@ class PartPass {
     AXIL_ASSERT(old_.parameters.data() != nullptr, "two numbers can always be read, even where there are none");
     in_ = old_.parameters.data() + parameter;
     rule_ = nullptr;
-    if (plans_.rightCodes) readRightCodes(begin, end);
+    if (plans_.rightCodes) plans_.pairs ? readRightCodes<true>(begin, end) : readRightCodes<false>(begin, end);
     if (plans_.bytes)
       identified_ ? byteNeighbours<true>(begin, end) : byteNeighbours<false>(begin, end);
     else if (identified_)
@@ -79,6 +79,8 @@ class PartPass {
  private:
   template <bool identified>
   void byteNeighbours(std::size_t begin, std::size_t end) {
+    if (!identified && plans_.pairs)
+      return eachBlock(begin, end, [this](std::size_t at, std::size_t to, SymbolCode last, LeftFringe& fringe) { return rewritePairs(at, to, last, fringe); });
     if (plans_.leftCodes)
       plans_.rightCodes ? byteBlocks<identified, true, true>(begin, end) : byteBlocks<identified, true, false>(begin, end);
     else
@@ -99,31 +101,28 @@ class PartPass {
       plans_.rightCodes ? blocks<parameters, identified, false, true>(begin, end) : blocks<parameters, identified, false, false>(begin, end);
   }
 
+  /// Who is to the right of each module; `pairs`: beside the module itself, in one byte.
+  template <bool pairs>
   void readRightCodes(std::size_t begin, std::size_t end) {
     RightFringe fringe(plans_, old_.codes, end);
     SymbolCode* const right = s_.rightCodes.data();
     const SymbolCode* const codes = old_.codes.data();
-    const Hot* const hots = plans_.hot.data();
-    const SymbolCode nobody = fringe.nobody();
-    Buffer<SymbolCode>& stack = lane_.stack;
-    stack.clear();
+    const NearestTurn* const turns = plans_.rightTurns.data();
+    lane_.stack.clear();
+    Levels levels(lane_.stack);
     SymbolCode next = fringe.nearest();
-    for (std::size_t i = end; i-- > begin;) {
-      right[i] = next;
-      const SymbolCode code = codes[i];
-      const std::uint8_t role = hots[code].role;
-      if (role < Plans::Opens) {
-        next = role == Plans::Considered ? code : next;
-      } else if (role == Plans::Closes) {
-        stack.push(next);
-        next = nobody;
-      } else if (stack.size() > 0) {
-        next = stack[stack.size() - 1];
-        stack.setSize(stack.size() - 1);
-      } else {
-        fringe.leave();
-        next = fringe.nearest();
+    constexpr std::size_t atOnce = 4096;
+    for (std::size_t to = end; to > begin;) {
+      const std::size_t from = to - std::min(to - begin, atOnce);
+      SymbolCode* top = levels.roomFor(to - from);
+      const SymbolCode* const floor = levels.floor();
+      for (std::size_t i = to; i-- > from;) {
+        const SymbolCode code = codes[i];
+        right[i] = pairs ? static_cast<SymbolCode>(code << 4 | next) : next;
+        next = nearestBehind(turns[code], next, top, floor, fringe);
       }
+      levels.keep(top);
+      to = from;
     }
   }
 
@@ -187,6 +186,8 @@ class PartPass {
   SymbolCode rewriteBytes(std::size_t begin, std::size_t end, SymbolCode last, LeftFringe& fringe);
   template <bool identified, bool withLeft, bool withRight>
   SymbolCode rewriteEntries(std::size_t begin, std::size_t end, SymbolCode last, LeftFringe& fringe, const Draws* draws);
+  /// The same where a module and its right neighbour are one byte.
+  SymbolCode rewritePairs(std::size_t begin, std::size_t end, SymbolCode last, LeftFringe& fringe);
   /// The identities of an entry's modules, the first and then five at a time: a Buffer has room behind its end.
   static void writeFew(Identity* born, std::uint64_t family, const std::array<std::uint64_t, 16>& keys, const ByteEntry& made);
   /// As `chosen`, without a branch that chance would take.

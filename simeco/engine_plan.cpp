@@ -55,6 +55,7 @@ class Planner {
     plans_->codes = program_.symbols->size();
     for (std::size_t code = 0; code < 256; ++code)
       plans_->hot[code].role = program_.opens[code] ? Plans::Opens : program_.closes[code] ? Plans::Closes : main_.ignored[code] ? Plans::Ignored : Plans::Considered;
+    for (std::size_t code = 0; code < 256; ++code) planTurns(static_cast<SymbolCode>(code));
     plans_->decomposes = !main_.decomposition.empty();
     for (std::size_t code = 0; code < plans_->codes; ++code) plans_->hot[code].decomposes = !main_.decomposition.bySymbol[code].all.empty();
     for (const CompiledRule& rule : main_.decomposition.rules) {
@@ -67,10 +68,25 @@ class Planner {
     for (std::size_t code = 0; code < plans_->codes; ++code)
       if (tableOf_[code] >= 0) plans_->bySymbol[code].table = plans_->tables[static_cast<std::size_t>(tableOf_[code])].data();
     planBytes();
+    if (plans_->bytes) planPairs();
     return std::move(plans_);
   }
 
  private:
+  /// A branch that ends leaves who was nearest where it began. From the left a branch begins with that one near, from the right with
+  /// nobody.
+  void planTurns(SymbolCode code) {
+    constexpr SymbolCode all = 0xff, none = 0;
+    const auto nobody = static_cast<SymbolCode>(plans_->codes);
+    NearestTurn &left = plans_->leftTurns[code], &right = plans_->rightTurns[code];
+    switch (static_cast<Plans::Role>(plans_->hot[code].role)) {
+      case Plans::Considered: left = right = {none, code, none, 0}; break;
+      case Plans::Ignored: left = right = {all, none, none, 0}; break;
+      case Plans::Opens: left = {all, none, none, 1}, right = {none, none, all, -1}; break;
+      case Plans::Closes: left = {none, none, all, -1}, right = {none, nobody, none, 1}; break;
+    }
+  }
+
   // ---- entries for strings without parameters ----------------------------------------------------------------------
 
   [[nodiscard]] bool allBytes() const {
@@ -89,7 +105,6 @@ class Planner {
       const Plan& plan = plans_->bySymbol[code];
       const Plan::Kind kind = plans_->hot[code].kind;
       ByteSymbol& symbol = plans_->byteSymbols[code];
-      symbol.role = plans_->hot[code].role;
       symbol.first = static_cast<std::uint32_t>(plans_->entries.size());
       symbol.drawn = kind == Plan::Kind::Lottery;
       if (kind == Plan::Kind::Copy) addEntry(code, nullptr);
@@ -100,6 +115,21 @@ class Planner {
       symbol.rightStep = 1;
       for (std::size_t pair = 0; pair < width * width; ++pair) addEntry(code, plans_->lists[plan.table[pair]].outright);
     }
+  }
+  void planPairs() {
+    const std::size_t width = plans_->codes + 1;
+    const bool small = plans_->entries.size() <= 0xffff && std::all_of(plans_->entries.begin(), plans_->entries.end(), [](const ByteEntry& entry) { return entry.longer == nullptr; });
+    plans_->pairs = plans_->leftCodes && plans_->rightCodes && width <= 16 && small && !main_.stochastic;
+    if (!plans_->pairs) return;
+    plans_->pairEntries.resize(16 * 256);
+    for (std::size_t code = 0; code < plans_->codes; ++code)
+      for (std::size_t right = 0; right < width; ++right) {
+        const std::size_t pair = code << 4 | right;
+        plans_->pairTurns[pair] = plans_->leftTurns[code];
+        const ByteSymbol& symbol = plans_->byteSymbols[code];
+        for (std::size_t left = 0; left < width; ++left)
+          plans_->pairEntries[left << 8 | pair] = static_cast<std::uint16_t>(symbol.first + left * symbol.leftStep + right * symbol.rightStep);
+      }
   }
   void addEntry(std::size_t code, const QuickSuccessor* successor) {
     ByteEntry entry;

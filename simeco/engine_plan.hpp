@@ -99,12 +99,20 @@ struct alignas(32) ByteEntry {
   const QuickSuccessor* longer = nullptr;           ///< when it has more modules than fit here
 };
 
+/// What a module means for who is nearest to those behind it, as masks, so that no branch depends on it: the nearest becomes
+/// (popped & pop) | (nearest & keep) | set, and `depth` is how many levels open (1) or close (-1).
+struct NearestTurn {
+  SymbolCode keep = 0;
+  SymbolCode set = 0;
+  SymbolCode pop = 0;
+  std::int8_t depth = 0;
+};
+
 /// Where a symbol's entries are: one, or one for every pair of neighbours, or one for every ticket of a lottery.
 struct ByteSymbol {
   std::uint32_t first = 0;
   std::uint16_t leftStep = 0;
   std::uint16_t rightStep = 0;
-  std::uint8_t role = 0;
   bool drawn = false;
 };
 
@@ -117,6 +125,7 @@ struct Plans {
   enum Role : std::uint8_t { Considered, Ignored, Opens, Closes };
 
   std::array<Hot, 256> hot;
+  std::array<NearestTurn, 256> leftTurns, rightTurns;  ///< read from the left, from the right
   std::array<Plan, 256> bySymbol;
   std::size_t codes = 0;                        ///< so many symbols; also the code of "nobody" in neighbour tables
   std::vector<std::unique_ptr<QuickSuccessor>> successors;
@@ -136,6 +145,11 @@ struct Plans {
   std::array<ByteSymbol, 256> byteSymbols;
   std::vector<ByteEntry> entries;
   std::vector<std::array<std::uint64_t, 16>> entryKeys;  ///< of each entry the keys of its first modules, 0 behind them; of a module that stays who it is, 0
+  /// At most 15 symbols, and both neighbours asked for: a module and its right neighbour are one byte (the module in the upper half),
+  /// and `pairEntries` has the entry for that byte beside each left neighbour (times 256).
+  bool pairs = false;
+  std::vector<std::uint16_t> pairEntries;
+  std::array<NearestTurn, 256> pairTurns;       ///< `leftTurns` by that byte
   bool leaps = true;                            ///< only Copy and constant Direct: many steps can be made at once
   bool calms = true;                            ///< only Copy, Direct, Guarded and Neighbours, nothing random, brackets stay
   std::size_t longest = 1;                      ///< modules that one module may become

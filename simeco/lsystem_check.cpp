@@ -1,5 +1,8 @@
 #include "base/overloaded.hpp"
+#include "simeco/check_fold.hpp"
+#include "simeco/check_reach.hpp"
 #include "simeco/check_runaway.hpp"
+#include "simeco/derive.hpp"
 #include "simeco/lsystem_language.hpp"
 #include "simeco/lsystem_reader.hpp"
 #include "simeco/report.hpp"
@@ -13,8 +16,6 @@ namespace axil::simeco {
 namespace {
 
 using Names = std::set<std::string, std::less<>>;
-
-const Name* nameOf(const Grammar& grammar, ExprId id) { return std::get_if<Name>(&grammar.at(id).node); }
 
 /// How a string of modules leaves brackets: ]]][[ is what remains when pairs are taken away.
 struct Balance {
@@ -39,7 +40,7 @@ void scanned(const Grammar& grammar, ExprId id, Names& names) {
   const auto* call = std::get_if<Call>(&grammar.at(id).node);
   if (call == nullptr || call->function != "fscanf") return;
   for (const ExprId argument : call->arguments)
-    if (const Name* name = nameOf(grammar, argument)) names.insert(name->name);
+    if (const Name* name = nameIn(grammar, argument)) names.insert(name->name);
 }
 
 /// Names that statements give a value to.
@@ -78,7 +79,7 @@ class Checker {
     });
     for (const ArrayDeclaration& array : rules.arrays)
       for (const ExprId id : array.initial) expression(id);
-    if (rules.derivationLength) expression(*rules.derivationLength);
+    if (rules.derivationLength) derivationLength(*rules.derivationLength);
     for (const Block* block : {&rules.start, &rules.startEach, &rules.endEach, &rules.end}) statements(*block);
     string(rules.axiom);
     const Balance axiom = balanceOf(rules.axiom);
@@ -88,6 +89,13 @@ class Checker {
     if (rules.decomposition) productions(rules.decomposition->productions, rules, false);
     if (rules.homomorphism) productions(rules.homomorphism->productions, rules, false);
     productions(rules.interaction, rules, rules.seed.has_value());
+  }
+
+  void derivationLength(ExprId id) {
+    expression(id);
+    const auto steps = foldedWith(grammar_, id, {}, 0);
+    if (steps && *steps < 0) report_.error(grammar_.at(id).where, "the derivation length must not be negative", "0 gives the axiom");
+    else if (steps && *steps > static_cast<double>(Limits{}.steps)) report_.warning(grammar_.at(id).where, "the derivation is limited to " + std::to_string(Limits{}.steps) + " steps", "write fewer, or raise the limit with --max-steps");
   }
 
   void readGlobals(const RuleSet& rules) {
@@ -152,7 +160,7 @@ class Checker {
 
   void productions(const std::vector<Production>& all, const RuleSet& rules, bool stochastic) {
     for (const Production& rule : all) production(rule, rules, stochastic);
-    if (!stochastic) shadowed(all);
+    unreached(all, stochastic ? Order::ByChance : Order::FirstThatFits);
   }
 
   void production(const Production& rule, const RuleSet& rules, bool stochastic) {
@@ -185,7 +193,7 @@ class Checker {
   void bind(const std::vector<Module>& side) {
     for (const Module& m : side)
       for (const ExprId id : m.arguments) {
-        const Name* formal = nameOf(grammar_, id);
+        const Name* formal = nameIn(grammar_, id);
         if (formal == nullptr) continue;
         if (!formals_.insert(formal->name).second)
           report_.error(grammar_.at(id).where, "parameter " + formal->name + " stands twice in this rule", "give each its own name and compare them in a condition");
@@ -202,22 +210,15 @@ class Checker {
     }
   }
 
-  /// A rule behind one that takes every module it could take.
-  void shadowed(const std::vector<Production>& all) {
-    std::map<std::string, std::vector<const Production*>, std::less<>> greedy;
-    for (const Production& rule : all) {
-      if (rule.predecessor.empty()) continue;
-      auto& before = greedy[rule.predecessor[0].letter];
-      const bool hidden = std::any_of(before.begin(), before.end(), [&](const Production* earlier) { return covers(*earlier, rule); });
-      if (hidden) report_.warning(rule.where, "this rule never fires: one above it takes every such module", "move it up, or give the other a condition");
-      else if (rule.left.empty() && rule.right.empty() && !rule.condition && before.size() < 64) before.push_back(&rule);
+  /// Rules that rules above them or their own condition keep from firing.
+  void unreached(const std::vector<Production>& all, Order order) {
+    const auto unreached = unreachedRules(grammar_, all, order);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (unreached[i] == Unreached::ByItsCondition) report_.warning(all[i].where, "this rule never fires: its condition never holds", "compare again, or leave the rule out");
+      if (unreached[i] == Unreached::ByRulesAbove)
+        report_.warning(all[i].where, all[i].condition ? "this rule never fires: rules above it take every module for which its condition holds" : "this rule never fires: one above it takes every such module",
+                        "move it up, or give the other a condition");
     }
-  }
-
-  static bool covers(const Production& earlier, const Production& rule) {
-    if (earlier.predecessor.size() > rule.predecessor.size()) return false;
-    return std::equal(earlier.predecessor.begin(), earlier.predecessor.end(), rule.predecessor.begin(),
-                      [](const Module& a, const Module& b) { return a.letter == b.letter && a.arguments.size() == b.arguments.size(); });
   }
 
   // ---- strings, statements, expressions
@@ -315,7 +316,7 @@ class Checker {
       if (!takesText || !std::holds_alternative<Text>(grammar_.at(id).node)) expression(id);
     if (c.function == "com")
       for (const ExprId id : c.arguments)
-        if (nameOf(grammar_, id) == nullptr) report_.error(grammar_.at(id).where, "com hands over variables, not values", "put the value into a variable first");
+        if (nameIn(grammar_, id) == nullptr) report_.error(grammar_.at(id).where, "com hands over variables, not values", "put the value into a variable first");
     if (c.function == "trunc") report_.warning(where, "trunc rounds here: trunc(1.6) is 2", "write floor(x) to cut off the decimals of a positive x");
     files(c, where);
     static const Names kContours{"curveX", "curveY", "curveZ", "curveGAL", "inblob"};
@@ -331,7 +332,7 @@ class Checker {
     if (c.function != "fscanf") return;
     if (textOf(1) == nullptr) report_.error(where, "fscanf needs a quoted format behind the file", "write fscanf(f,\"%f\",&x)");
     for (std::size_t i = 2; i < c.arguments.size(); ++i)
-      if (nameOf(grammar_, c.arguments[i]) == nullptr) report_.error(grammar_.at(c.arguments[i]).where, "fscanf reads into variables", "write &x");
+      if (nameIn(grammar_, c.arguments[i]) == nullptr) report_.error(grammar_.at(c.arguments[i]).where, "fscanf reads into variables", "write &x");
   }
 
   const Grammar& grammar_;

@@ -7,6 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
+
+#include <map>
+
 namespace axil::simeco {
 namespace {
 
@@ -99,6 +103,66 @@ TEST(Interaction, PruningTakesWhatStandsOnTheSelectionAndLeavesBranchesBeforeIt)
   });
   ASSERT_TRUE(pruned) << pruned.error().message;
   EXPECT_EQ(toText(pruned->string), "A[C]B");
+}
+
+/// Where each module of the string ends that is drawn as a segment.
+class SegmentEnds : public TurtleSink {
+ public:
+  explicit SegmentEnds(const Image& image) : image_(image) {}
+  void segment(const TurtleSegment& s) override { ends[image_.source[s.module]] = s.end; }
+  std::map<std::size_t, glm::dvec3> ends;
+
+ private:
+  const Image& image_;
+};
+
+TEST(Host, ComLetsInternodesGrowAsLongAsTheyAreOutsideASphere) {
+  // RTIL-system 2010, figure 5: com asks the environment whether the internode at hand is inside; calls come in the string's order, so the
+  // host answers them from the places that it saw before the step.
+  const Grammar grammar = lsystem(
+      "Lsystem: 1\nderivation length: 20\nAxiom: [I(1)][+(90)I(1)]\nI(i) : {x=0; com(x);} (x==1) --> I(i+0.5)\nhomomorphism\nI(i) --> F(i)\nendlsystem\n");
+  const glm::dvec3 centre{0, 5, 0};
+  constexpr double radius = 2;
+  std::vector<bool> outside;
+  std::size_t calls = 0;
+  DeriveOptions options;
+  options.host.betweenSteps = [&](HostStep& step) -> Result<void> {
+    const auto image = step.image();
+    if (!image) return image.failure();
+    SegmentEnds places(*image);
+    const auto drawn = interpret(image->string, {}, places);
+    if (!drawn) return drawn.failure();
+    outside.clear();
+    for (const auto& [module, end] : places.ends) outside.push_back(glm::distance(end, centre) > radius);
+    EXPECT_EQ(calls, step.step() == 0 ? 0u : 2u);
+    calls = 0;
+    return {};
+  };
+  options.host.exchange = [&](std::span<double> variables) -> Result<void> {
+    variables[0] = outside.at(calls++) ? 1 : 0;
+    return {};
+  };
+  const auto derived = derive(grammar, options);
+  ASSERT_TRUE(derived) << derived.error().message;
+  EXPECT_EQ(toText(derived->string), "[I(3)][+(90)I(11)]");
+}
+
+TEST(Host, WhatFuncAndComFailWithEndsTheDerivation) {
+  const Grammar grammar = lsystem("Lsystem: 1\nStart: { g=1; }\nderivation length: 2\nAxiom: A\nA : {com(g);} g<3 --> A(func(7,g))\nendlsystem\n");
+  DeriveOptions options;
+  options.host.exchange = [](std::span<double> variables) -> Result<void> {
+    ++variables[0];
+    return {};
+  };
+  options.host.function = [](std::int64_t, std::span<const double>) -> Result<double> { return fail(ErrorCode::NoAnswer, "the soil is unknown here"); };
+  const auto failed = derive(grammar, options);
+  ASSERT_FALSE(failed);
+  EXPECT_NE(failed.error().message.find("the soil is unknown here"), std::string::npos) << failed.error().message;
+  options.host.function = [](std::int64_t id, std::span<const double> x) -> Result<double> { return static_cast<double>(id) * x[0]; };
+  const auto derived = derive(grammar, options);
+  ASSERT_TRUE(derived) << derived.error().message;
+  EXPECT_EQ(toText(derived->string), "A(14)");
+  EXPECT_EQ(derived->variables.at("g"), 2);  // what com wrote into a global stays
 }
 
 TEST(Environment, ItAnswersEveryCommunicationModuleBeforeTheRulesRun) {
