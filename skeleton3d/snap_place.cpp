@@ -176,29 +176,50 @@ struct AlongStem {
   std::vector<NodeId> whose;
 };
 
-AlongStem alongStem(std::span<const View> views, std::span<const NodeId> nodes, const std::map<NodeId, const SnappedNode*>& places, const RidgeReadings& readings, double widest) {
+/// How much of its length a stem about node `i` of `places` shows in a view: 1 from its side, 0 from its end.
+double lengthSeen(const View& view, std::span<const SnappedNode* const> places, std::size_t i) {
+  const glm::dvec3 run = places[std::min(i + 1, places.size() - 1)]->at.at - places[i > 0 ? i - 1 : 0]->at.at;
+  const Ray ray = rayThrough(view.camera, project(view.camera, places[i]->at));
+  return glm::length(run) > 0 ? glm::length(glm::cross(glm::normalize(run), ray.direction.unit())) : 1;
+}
+
+/// The views that show most of the stem's length at node `i`; from its end it has no edges along it, but whatever it hides has.
+std::vector<const View*> viewsFromTheSide(std::span<const View> views, std::span<const SnappedNode* const> places, std::size_t i) {
+  constexpr double kShare = 0.5;  // of the most that a view shows
+  double most = 0;
+  for (const View& view : views) most = std::max(most, lengthSeen(view, places, i));
+  std::vector<const View*> good;
+  for (const View& view : views)
+    if (lengthSeen(view, places, i) >= kShare * most) good.push_back(&view);
+  return good;
+}
+
+AlongStem alongStem(std::span<const View> views, std::span<const SnappedNode* const> places, std::size_t firstOwn, const RidgeReadings& readings, double widest) {
   constexpr double kLeeway = 1.25;
   AlongStem along;
-  for (const NodeId id : nodes) {
-    if (!places.contains(id)) continue;
+  for (std::size_t i = firstOwn; i < places.size(); ++i) {
     std::vector<MeasuredRadius> here;
-    for (const View& view : views)
-      if (const auto radius = believedRadius(view, *places.at(id), readings); radius && radius->radius < kLeeway * widest) here.push_back(*radius);
-    if (const auto radius = combinedRadius(here)) along.radii.push_back({radius->radius, radius->sigma / radius->radius}), along.whose.push_back(id);
+    for (const View* view : viewsFromTheSide(views, places, i))
+      if (const auto radius = believedRadius(*view, *places[i], readings); radius && radius->radius < kLeeway * widest) here.push_back(*radius);
+    if (const auto radius = combinedRadius(here)) along.radii.push_back({radius->radius, radius->sigma / radius->radius}), along.whose.push_back(places[i]->id);
   }
   return along;
 }
 
 /// A radius for every node that has readings, from all readings of its stem as a taper; parents first, as far as stems come in that order.
 std::map<NodeId, double> taperedRadiiOf(std::span<const View> views, std::span<const SnappedNode> placed, std::span<const ClickedStem> stems, const RidgeReadings& readings) {
-  std::map<NodeId, const SnappedNode*> places;
-  for (const SnappedNode& node : placed) places[node.id] = &node;
+  std::map<NodeId, const SnappedNode*> byId;
+  for (const SnappedNode& node : placed) byId[node.id] = &node;
   std::map<NodeId, double> radii;
   for (std::size_t s = 0; s < stems.size(); ++s) {
-    const std::span<const NodeId> nodes = stems[s].nodes;
-    const auto parent = nodes.empty() ? radii.end() : radii.find(nodes.front());
+    std::vector<const SnappedNode*> places;
+    for (const NodeId id : stems[s].nodes)
+      if (const auto node = byId.find(id); node != byId.end()) places.push_back(node->second);
+    if (places.empty()) continue;
+    const bool branches = s > 0 && places.front()->id == stems[s].nodes.front();
+    const auto parent = branches ? radii.find(places.front()->id) : radii.end();
     const double widest = parent == radii.end() ? std::numeric_limits<double>::max() : parent->second;
-    const AlongStem along = alongStem(views, nodes.subspan(std::min<std::size_t>(s > 0 ? 1 : 0, nodes.size())), places, readings, widest);  // the first node is its parent's
+    const AlongStem along = alongStem(views, places, branches ? 1 : 0, readings, widest);
     const std::vector<double> tapered = taperedRadii(along.radii);
     for (std::size_t i = 0; i < tapered.size(); ++i) radii[along.whose[i]] = tapered[i];
   }
