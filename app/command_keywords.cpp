@@ -19,13 +19,13 @@ struct KeywordsCommand {
   std::string gallery;  ///< a picture of all shapes goes here; empty: none
 };
 
-constexpr std::uintmax_t kMaximumTextBytes = 100'000'000;
+constexpr std::uintmax_t kMaximumTextBytes = keywords::descriptionLimitBytes;
 
 Result<std::string> textOf(const std::string& file) {
   if (file != "-") return readFile(file, kMaximumTextBytes);
   std::string text;
   for (char c; text.size() <= kMaximumTextBytes && std::cin.get(c);) text.push_back(c);
-  if (text.size() > kMaximumTextBytes) return fail(ErrorCode::LimitReached, "the description is longer than the limit of 100,000,000 bytes");
+  if (text.size() > kMaximumTextBytes) return fail(ErrorCode::LimitReached, "the description has more than " + std::to_string(kMaximumTextBytes / 1'000'000) + " MB, the limit; cut it into parts, for example with split");
   return text;
 }
 

@@ -174,10 +174,32 @@ std::string presetLines(const Presets& presets) {
   return text;
 }
 
-Json traitListJson(const Traits& traits) {
-  Json json = Json::array();
-  for (const Trait& trait : traits) json.push_back(traitJson(trait));
-  return json;
+// `json` as it stands as a member of an object, two blanks in.
+std::string indented(const Json& json, std::size_t blanks) {
+  std::string text = json.dump(2);
+  const std::string margin = "\n" + std::string(blanks, ' ');
+  std::string out;
+  out.reserve(text.size() + text.size() / 4);
+  for (const char c : text) {
+    if (c == '\n') out += margin;
+    else out += c;
+  }
+  return out;
+}
+
+// A list member of the whole, one entry after another: all of a long text's traits as one tree would need several times their room.
+template <class Entries, class ToJson>
+void putList(std::string& out, const char* name, const Entries& entries, ToJson toJson) {
+  constexpr std::size_t usualBytes = 200;  // an entry; growing by doubling would need twice the room
+  out.reserve(out.size() + entries.size() * usualBytes);
+  out += std::string("  \"") + name + "\": [";
+  bool first = true;
+  for (const auto& entry : entries) {
+    out += first ? "\n    " : ",\n    ";
+    out += indented(toJson(entry), 4);
+    first = false;
+  }
+  out += first ? "]" : "\n  ]";
 }
 
 Json unknownJson(const UnknownTerm& term) { return {{"organ", term.organ}, {"text", term.text}, {"start", term.start}, {"end", term.end}}; }
@@ -190,21 +212,19 @@ Json contradictionJson(const Contradiction& c, const Traits& traits) {
 }  // namespace
 
 std::string traitsJson(const Traits& traits, const Presets& presets) {
-  Json json;
-  json["traits"] = traitListJson(traits);
-  json["presets"] = presetsJson(presets);
-  return json.dump(2) + "\n";
+  std::string out = "{\n";
+  putList(out, "traits", traits, traitJson);
+  return out + ",\n  \"presets\": " + indented(presetsJson(presets), 2) + "\n}\n";
 }
 
 std::string readingJson(const Reading& reading, const Presets& presets) {
-  Json json;
-  json["traits"] = traitListJson(reading.traits);
-  json["presets"] = presetsJson(presets);
-  json["unknown"] = Json::array();
-  for (const UnknownTerm& term : reading.unknown) json["unknown"].push_back(unknownJson(term));
-  json["contradictions"] = Json::array();
-  for (const Contradiction& c : reading.contradictions) json["contradictions"].push_back(contradictionJson(c, reading.traits));
-  return json.dump(2) + "\n";
+  std::string out = "{\n";
+  putList(out, "traits", reading.traits, traitJson);
+  out += ",\n  \"presets\": " + indented(presetsJson(presets), 2) + ",\n";
+  putList(out, "unknown", reading.unknown, unknownJson);
+  out += ",\n";
+  putList(out, "contradictions", reading.contradictions, [&](const Contradiction& c) { return contradictionJson(c, reading.traits); });
+  return out + "\n}\n";
 }
 
 std::string traitsText(const Traits& traits, const Presets& presets) {

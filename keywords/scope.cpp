@@ -14,6 +14,23 @@ bool bears(const Concept& organ) { return isOneOf(organ.name, {"plant", "stem", 
 
 const std::string& roleOf(const Concept& noun) { return noun.columns.at("role"); }
 
+// The words of kinds, by their characters: 基生, 雄.
+struct HanKind {
+  std::vector<std::string> words;
+  const Concept* which = nullptr;
+};
+
+const std::vector<HanKind>& hanKinds() {
+  static const std::vector<HanKind> kinds = [] {
+    std::vector<HanKind> all;
+    for (const Concept& which : categoryOf("which").concepts)
+      for (const std::vector<Term>* terms : {&which.traditional, &which.simplified})
+        for (const Term& term : *terms) all.push_back({wordsOf(term.words), &which});
+    return all;
+  }();
+  return kinds;
+}
+
 std::vector<std::string> ownersOf(const Concept& piece) { return splitList(piece.columns.at("partOf"), ' '); }
 
 }  // namespace
@@ -160,14 +177,11 @@ std::string ParagraphReader::whichBefore(std::size_t i) const {
   // 雄蕊 is a stamen and not the male kind of one.
   const Concept* noun = found_[i].conceptAs("organ");
   if (!isHan(i) || found_[i].end < i + 2 || (noun != nullptr && isOneOf(noun->name, {"stamen", "pistil", "column"}))) return {};
-  for (const Concept& which : categoryOf("which").concepts)
-    for (const std::vector<Term>* terms : {&which.traditional, &which.simplified})
-      for (const Term& term : *terms) {
-        const std::vector<std::string> words = wordsOf(term.words);
-        bool same = i + words.size() < found_[i].end;
-        for (std::size_t k = 0; same && k < words.size(); ++k) same = is(i + k, words[k]);
-        if (same) return which.name;
-      }
+  for (const auto& [words, which] : hanKinds()) {
+    bool same = i + words.size() < found_[i].end;
+    for (std::size_t k = 0; same && k < words.size(); ++k) same = is(i + k, words[k]);
+    if (same) return which->name;
+  }
   return {};
 }
 

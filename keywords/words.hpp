@@ -9,7 +9,12 @@
 namespace axil::keywords {
 
 using Words = std::initializer_list<std::string_view>;
-inline bool isOneOf(std::string_view text, Words words) { return std::find(words.begin(), words.end(), text) != words.end(); }
+/// Most words differ in length, first or last byte already; Chinese characters in the last.
+inline bool isOneOf(std::string_view text, Words words) {
+  return !text.empty() && std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+    return word.size() == text.size() && word.back() == text.back() && word.front() == text.front() && word == text;
+  });
+}
 
 [[nodiscard]] bool negates(std::string_view word);
 /// "rarely", "usually", "narrowly": the qualifier that the word is, or nothing.
