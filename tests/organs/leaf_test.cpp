@@ -1,6 +1,7 @@
 #include "organs/leaf.hpp"
 
 #include "mesh_checks.hpp"
+#include "polygon_checks.hpp"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -13,32 +14,13 @@
 namespace axil::organs {
 namespace {
 
+using test::areaOf;
+using test::cross;
+using test::crossingsOf;
 using test::expectSound;
 using test::trianglesOf;
 
 constexpr std::array allDetails{Detail::Close, Detail::Medium, Detail::Far};
-
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
-
-double areaOf(const std::vector<glm::vec2>& polygon) {
-  double twice = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
-  return 0.5 * twice;
-}
-
-bool segmentsCross(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
-  const auto side = [](glm::dvec2 p, glm::dvec2 q, glm::dvec2 r) { return cross(q - p, r - p); };
-  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
-}
-
-int crossingsOf(const std::vector<glm::vec2>& polygon) {
-  int crossings = 0;
-  const std::size_t n = polygon.size();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 2; j < n; ++j)
-      if ((j + 1) % n != i && segmentsCross(polygon[i], polygon[(i + 1) % n], polygon[j], polygon[(j + 1) % n])) ++crossings;
-  return crossings;
-}
 
 const Mesh& bladeOf(const std::vector<Part>& parts) {
   return std::find_if(parts.begin(), parts.end(), [](const Part& p) { return p.name == "blade"; })->mesh;
