@@ -125,7 +125,9 @@ bool taken(const std::vector<const Demands*>& above, const Demands& below) {
     if (!rest->place) return true;
     byPlace[*rest->place].push_back(rest->taking);
   }
-  for (const auto& [place, takings] : byPlace) {
+  for (const auto& entry : byPlace) {
+    const Place& place = entry.first;
+    const std::vector<Taking>& takings = entry.second;
     std::vector<double> limits;
     const bool own = below.clear() && below.place() == place;
     if (own) limits = below.limits();
@@ -134,8 +136,8 @@ bool taken(const std::vector<const Demands*>& above, const Demands& below) {
       if (taking.literal) limits.push_back(*taking.literal);
     }
     const auto samples = samplesAround(limits);
-    const bool all = std::all_of(samples.begin(), samples.end(), [&, at = place](double value) {
-      return (own && !below.holds(value)) || std::any_of(takings.begin(), takings.end(), [&](const Taking& taking) { return taking.takes(value, at); });
+    const bool all = std::all_of(samples.begin(), samples.end(), [&](double value) {
+      return (own && !below.holds(value)) || std::any_of(takings.begin(), takings.end(), [&](const Taking& taking) { return taking.takes(value, place); });
     });
     if (all) return true;
   }

@@ -15,12 +15,12 @@ class LeftFringe {
 
   /// The nearest considered module of this level or of those that carry it.
   SymbolCode nearest() {
-    std::size_t depth = 0;
     for (std::size_t i = at_; i-- > 0;) {
       const std::uint8_t role = plans_.hot[codes_[i]].role;
-      if (role == Plans::Closes) ++depth;
-      if (role == Plans::Opens && depth > 0) --depth;
-      if (role == Plans::Considered && depth == 0) return codes_[i];
+      if (role == Plans::Considered) return codes_[i];
+      // Over a whole branch at once, without a branch of ours for each of its brackets.
+      if (role == Plans::Closes)
+        for (int depth = -1; depth < 0 && i > 0;) depth += plans_.leftTurns[codes_[--i]].depth;
     }
     return nobody();
   }
@@ -43,12 +43,12 @@ class RightFringe {
   RightFringe(const Plans& plans, std::span<const SymbolCode> codes, std::size_t end) : plans_(plans), codes_(codes), at_(end) {}
 
   SymbolCode nearest() const {
-    std::size_t depth = 0;
     for (std::size_t i = at_; i < codes_.size(); ++i) {
       const std::uint8_t role = plans_.hot[codes_[i]].role;
-      if (role == Plans::Opens) ++depth;
-      if (role == Plans::Closes && depth-- == 0) break;
-      if (role == Plans::Considered && depth == 0) return codes_[i];
+      if (role == Plans::Considered) return codes_[i];
+      if (role == Plans::Closes) break;
+      if (role == Plans::Opens)
+        for (int depth = -1; depth < 0 && i + 1 < codes_.size();) depth += plans_.rightTurns[codes_[++i]].depth;
     }
     return nobody();
   }
@@ -92,7 +92,8 @@ template <class Fringe>
 [[nodiscard]] inline SymbolCode nearestBehind(const NearestTurn& turn, SymbolCode nearest, SymbolCode*& top, const SymbolCode* floor, Fringe& fringe) {
   const SymbolCode popped = top[-1];
   *top = nearest;
-  nearest = static_cast<SymbolCode>((popped & turn.pop) | (nearest & turn.keep) | turn.set);
+  const unsigned instead = (popped & turn.pop) | turn.set;  // apart, so that only two operations wait for the module before
+  nearest = static_cast<SymbolCode>((nearest & turn.keep) | instead);
   top += turn.depth;
   if (top == floor) [[unlikely]] {
     ++top;
