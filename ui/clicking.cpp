@@ -13,13 +13,6 @@ using document::Project;
 using document::StemId;
 using document::Step;
 
-double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
-  const glm::dvec2 along = b - a;
-  const double length2 = glm::dot(along, along);
-  const double share = length2 > 0 ? std::clamp(glm::dot(p - a, along) / length2, 0.0, 1.0) : 0;
-  return glm::distance(p, a + share * along);
-}
-
 const skeleton3d::ClickedStem& stemAt(const Project& project, std::size_t place) { return project.stems[place].stem; }
 
 bool hasClick(const Project& project, NodeId id, const std::string& view) { return document::clickOf(project, id, view) != nullptr; }
@@ -92,6 +85,13 @@ ClickMeaning beginStem(const Project& project, const PhotoClick& click) {
 }
 
 }  // namespace
+
+double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
+  const glm::dvec2 along = b - a;
+  const double length2 = glm::dot(along, along);
+  const double share = length2 > 0 ? std::clamp(glm::dot(p - a, along) / length2, 0.0, 1.0) : 0;
+  return glm::distance(p, a + share * along);
+}
 
 bool Selection::has(NodeId id) const { return node == id || std::find(others.begin(), others.end(), id) != others.end(); }
 

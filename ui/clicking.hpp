@@ -71,6 +71,8 @@ struct PlaceOnStem {
 [[nodiscard]] ClickMeaning meaningAlong(const document::Project& project, const Selection& selection, const PhotoClick& click, std::span<const PhotoPoint> way);
 [[nodiscard]] ClickMeaning meaningOf(const document::Project& project, const Selection& selection, const PhotoClick& click);
 
+[[nodiscard]] double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b);
+
 /// The node with the nearest click in the view, within reach.
 [[nodiscard]] std::optional<document::NodeId> nodeAt(const document::Project& project, const PhotoClick& click);
 

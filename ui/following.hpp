@@ -33,6 +33,9 @@ struct GrownGrammar {
   std::optional<Error> trouble;          ///< why it does not grow
 };
 
+/// The moment that is shown of it: `time`, or when all is grown.
+[[nodiscard]] inline double timeShown(double time, const GrownGrammar& grown) { return time < 0 ? grown.end : std::min(time, grown.end); }
+
 struct Following {
   std::uint64_t revision = 0;            ///< of the project it was worked out from
   std::optional<keywords::Traits> said;  ///< all that the description says, before any decision

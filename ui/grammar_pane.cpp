@@ -72,6 +72,7 @@ void selectSegment(const Panel& panel, int segment) {
 struct Marks {
   const std::vector<int>* segments = nullptr;  ///< of the lines, where they are known
   std::optional<int> chosen;
+  std::optional<std::size_t> organ;            ///< the line of the rule that made the chosen organ
   std::string find;
 };
 
@@ -80,7 +81,9 @@ void drawLine(const Panel& panel, const Sheet& sheet, std::size_t line, ImVec2 a
   const float height = ImGui::GetTextLineHeight();
   const bool isChosen = marks.chosen && marks.segments != nullptr && line < marks.segments->size() && (*marks.segments)[line] == *marks.chosen;
   const bool isFound = !marks.find.empty() && sheet.lines[line].find(marks.find) != std::string_view::npos;
-  if (isChosen || isFound) list.AddRectFilled({at.x, at.y}, {at.x + width, at.y + height}, panel.palette.accentSoft);
+  const bool isOrgan = marks.organ == line;
+  if (isChosen || isFound || isOrgan) list.AddRectFilled({at.x, at.y}, {at.x + width, at.y + height}, panel.palette.accentSoft);
+  if (isOrgan) list.AddRectFilled({at.x, at.y}, {at.x + panel.px(4), at.y + height}, panel.palette.accent);
   const std::string number = std::to_string(line + 1);
   const bool isWrong = sheet.wrong.contains(line);
   list.AddText({at.x + gutter - panel.px(14) - ImGui::CalcTextSize(number.c_str()).x, at.y}, isWrong ? panel.palette.error : withAlpha(panel.palette.quiet, 140), number.c_str());
@@ -107,9 +110,16 @@ void showLine(int line) {
 
 // ---- to be read ------------------------------------------------------------------------------------------------------------
 
+/// In the grammar that is grown.
+std::optional<std::size_t> organLine(const Panel& panel, const GrownGrammar& grown, document::GrammarKind kind) {
+  const ChosenOrgan* organ = panel.organ();
+  if (kind != panel.state.kind || organ == nullptr || !organ->where || organ->where->begin >= grown.text.size()) return std::nullopt;
+  return static_cast<std::size_t>(placeOf(grown.text, organ->where->begin).line - 1);
+}
+
 void readOnly(const Panel& panel, const GrownGrammar& grown, document::GrammarKind kind, float gutter) {
   const Sheet sheet = sheetOf(grown.text, grown.diagnostics);
-  const Marks marks{kind == document::GrammarKind::Structured ? nullptr : &grown.segments, chosenSegment(panel), panel.state.find};
+  const Marks marks{kind == document::GrammarKind::Structured ? nullptr : &grown.segments, chosenSegment(panel), organLine(panel, grown, kind), panel.state.find};
   const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
   if (panel.state.wantedLine) showLine(*panel.state.wantedLine);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
@@ -155,7 +165,7 @@ void writable(const Panel& panel, float gutter) {
   landmark(panel, "grammar_field");
   ImGui::PopStyleColor(2);
   ImGui::PopStyleVar();
-  const Marks marks{nullptr, std::nullopt, panel.state.find};
+  const Marks marks{nullptr, std::nullopt, std::nullopt, panel.state.find};
   const int first = std::max(0, static_cast<int>(ImGui::GetScrollY() / height) - 1), shown = static_cast<int>(ImGui::GetWindowHeight() / height) + 3;
   for (int i = first; i < std::min(first + shown, static_cast<int>(sheet.lines.size())); ++i)
     drawLine(panel, sheet, static_cast<std::size_t>(i), {at.x, at.y + static_cast<float>(i) * height}, gutter, size.x + gutter, marks);

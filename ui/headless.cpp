@@ -235,6 +235,14 @@ struct HeadlessStudio::Inside {
     dragTo(from, {from.x + static_cast<float>(*dx), from.y + static_cast<float>(*dy)}, 0);
     return {};
   }
+  Result<void> clickIn(const Words& w) {
+    const auto place = studio->state().landmarks.find(w[0]);
+    const auto x = parseNumber(w[1]), y = parseNumber(w[2]);
+    if (place == studio->state().landmarks.end()) return fail(ErrorCode::NotFound, "nothing is called " + w[0]);
+    if (!x || !y) return fail(ErrorCode::BadInput, "ui click_in takes two numbers");
+    clickAt({place->second[0] + static_cast<float>(*x), place->second[1] + static_cast<float>(*y)});
+    return {};
+  }
   Result<void> move(const Words& w) {
     const auto at = onScreen(w[0], w[1], w[2]);
     if (!at) return at.failure();
@@ -354,7 +362,7 @@ struct HeadlessStudio::Inside {
       std::function<Result<void>(Inside&, const Words&)> act;
     };
     static const std::map<std::string, Row> kRows = {
-        {"click", {3, &Inside::click}}, {"shift_click", {3, &Inside::shiftClick}}, {"menu", {3, &Inside::menu}}, {"pull", {3, &Inside::pull}}, {"move", {3, &Inside::move}}, {"drag", {5, &Inside::drag}}, {"wheel", {4, &Inside::wheel}}, {"pan", {3, &Inside::pan}},
+        {"click", {3, &Inside::click}}, {"shift_click", {3, &Inside::shiftClick}}, {"menu", {3, &Inside::menu}}, {"pull", {3, &Inside::pull}}, {"click_in", {3, &Inside::clickIn}}, {"move", {3, &Inside::move}}, {"drag", {5, &Inside::drag}}, {"wheel", {4, &Inside::wheel}}, {"pan", {3, &Inside::pan}},
         {"press", {1, &Inside::press}}, {"key", {1, &Inside::key}}, {"frames", {1, &Inside::frames}}, {"way", {1, &Inside::way}}, {"theme", {1, &Inside::theme}},
         {"language", {1, &Inside::language}}, {"scale", {1, &Inside::scale}}, {"time", {1, &Inside::time}}, {"orbit", {3, &Inside::orbit}}, {"screenshot", {1, &Inside::screenshot}},
         {"wait", {0, [](Inside& in, const Words&) { return in.wait(); }}}};

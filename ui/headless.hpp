@@ -8,6 +8,7 @@
 ///   ui drag VIEW X Y X2 Y2   with the left button
 ///   ui menu VIEW X Y         with the right button; then `ui press menu_...`
 ///   ui pull NAME DX DY      what has a name, with the left button: a border between parts, the selected node in space (selected_in_space); px of the screen
+///   ui click_in NAME X Y     in what has a name (pane_plant), px of the screen from its upper left corner
 ///   ui wheel VIEW X Y N      N notches over that place
 ///   ui pan VIEW DX DY        drag with the middle button, px of the screen
 ///   ui press NAME            a button by its name (a key of data/texts.tsv, or play, track, stem_2, photo_front, file_NAME ...)

@@ -50,6 +50,10 @@ struct Panel {
   [[nodiscard]] const GrownGrammar* shown() const {
     return state.grammarDraft && draft && draft->growth ? draft.get() : following.grammar(state.kind);
   }
+  /// The chosen organ; null: none is, or the plant has changed since.
+  [[nodiscard]] const ChosenOrgan* organ() const {
+    return state.organ && !state.grammarDraft && state.organOf == std::pair(following.revision, state.kind) ? &*state.organ : nullptr;
+  }
   [[nodiscard]] const char* t(std::string_view key) const { return texts(key, state.language); }
   [[nodiscard]] float px(float designed) const { return designed * state.scale; }
 };

@@ -152,9 +152,21 @@ void plantFacts(const Panel& panel) {
   quiet(panel, panel.t("inspector_help"));
 }
 
+void organFacts(const Panel& panel) {
+  if (panel.organ() == nullptr) return;
+  const ChosenOrgan& organ = *panel.organ();
+  static constexpr std::array<const char*, 6> kNames = {"organ_apex", "organ_stem", "organ_leaf", "organ_root", "organ_fruit", "organ_flower"};
+  heading(panel, kNames[static_cast<std::size_t>(organ.kind)]);
+  fact(panel, panel.t("segment_length"), length(panel, organ.length));
+  fact(panel, panel.t("organ_age"), shortest(roundedTo(organ.age, 2)));
+  quiet(panel, organ.rule.empty() ? panel.t("organ_axiom") : organ.rule);
+  gap(panel, 8);
+}
+
 }  // namespace
 
 Taken inspector(const Panel& panel) {
+  organFacts(panel);
   const auto place = panel.state.selection.node ? document::nodeWithId(panel.project, *panel.state.selection.node) : std::nullopt;
   if (!place) {
     plantFacts(panel);

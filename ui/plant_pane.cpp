@@ -1,5 +1,6 @@
 #include "document/lookup.hpp"
 #include "skeleton3d/camera.hpp"
+#include "ui/organ_pick.hpp"
 #include "ui/plant_picture.hpp"
 #include "ui/widgets_interop.hpp"
 
@@ -18,6 +19,10 @@ struct View3d {
   [[nodiscard]] ImVec2 onScreen(PlantPoint p) const {
     const glm::dvec2 px = skeleton3d::project(camera, p).px;
     return {area.x + static_cast<float>(px.x), area.y + static_cast<float>(px.y)};
+  }
+  [[nodiscard]] PhotoPoint mouse() const {
+    const ImVec2 at = ImGui::GetIO().MousePos;
+    return {{at.x - area.x, at.y - area.y}};
   }
 };
 
@@ -67,12 +72,6 @@ void drawGhosts(const View3d& view) {
   }
 }
 
-double distanceTo(ImVec2 p, ImVec2 a, ImVec2 b) {
-  const glm::dvec2 along(b.x - a.x, b.y - a.y), to(p.x - a.x, p.y - a.y);
-  const double length2 = glm::dot(along, along);
-  return glm::length(to - along * (length2 > 0 ? std::clamp(glm::dot(to, along) / length2, 0.0, 1.0) : 0.0));
-}
-
 /// Beside every node: the stem segment under the mouse, which is known by the node that it ends at.
 void pickSegment(const View3d& view, const skeleton3d::Skeleton& skeleton) {
   double best = static_cast<double>(view.panel.px(8));
@@ -81,7 +80,7 @@ void pickSegment(const View3d& view, const skeleton3d::Skeleton& skeleton) {
       const auto* from = nodeWith(skeleton, stem.nodes[i - 1]);
       const auto* to = nodeWith(skeleton, stem.nodes[i]);
       if (from == nullptr || to == nullptr || !document::nodeWithId(view.panel.project, to->id)) continue;
-      const double distance = distanceTo(ImGui::GetIO().MousePos, view.onScreen(from->position), view.onScreen(to->position));
+      const double distance = distanceToSegment(view.mouse().px, skeleton3d::project(view.camera, from->position).px, skeleton3d::project(view.camera, to->position).px);
       if (distance > best) continue;
       best = distance;
       view.panel.state.selection = {.node = to->id, .others = {}};
@@ -105,11 +104,38 @@ const skeleton3d::Node* nodeUnderMouse(const View3d& view) {
   return found;
 }
 
+/// An organ of the plant as it stands there: it says which rule made it, and its measured segment is selected.
+void pickOrgan(const View3d& view, const GrownGrammar& grown) {
+  UiState& state = view.panel.state;
+  if (state.grammarDraft) return;
+  const auto plant = grown.growth ? simeco::plantAt(*grown.growth, timeShown(state.time, grown)) : Result<simeco::Plant>(simeco::Plant{});
+  const auto organ = plant ? organUnder(*plant, view.camera, view.mouse(), static_cast<double>(view.panel.px(5))) : std::nullopt;
+  if (!organ) return;
+  state.organ = describedOrgan(*plant, *organ);
+  state.organOf = {view.panel.following.revision, state.kind};
+  if (state.organ->where) state.wantedLine = placeOf(grown.text, state.organ->where->begin).line - 1;
+  const auto& measured = view.panel.following.measurements.good;
+  const int segment = state.kind == document::GrammarKind::Structured ? -1 : segmentOfOrgan(*plant, *organ);
+  if (measured && segment >= 0 && segment < static_cast<int>(measured->segments.size())) state.selection = {.node = measured->segments[static_cast<std::size_t>(segment)].to, .others = {}};
+}
+
 void pick(const View3d& view) {
+  UiState& state = view.panel.state;
+  state.organ.reset();
   const auto& skeleton = view.panel.following.skeleton.good;
-  if (!skeleton) return;
-  if (const skeleton3d::Node* node = nodeUnderMouse(view)) view.panel.state.selection = {.node = node->id, .others = {}};
-  else pickSegment(view, *skeleton);
+  const GrownGrammar* grown = view.panel.shown();
+  if (const skeleton3d::Node* node = skeleton ? nodeUnderMouse(view) : nullptr) state.selection = {.node = node->id, .others = {}};
+  else if (grown != nullptr && state.showPlant) pickOrgan(view, *grown);
+  else if (skeleton) pickSegment(view, *skeleton);
+}
+
+/// The chosen organ's middle line.
+void drawOrgan(const View3d& view, const GrownGrammar& grown) {
+  const ChosenOrgan* organ = view.panel.organ();
+  if (organ == nullptr || organ->time != timeShown(view.panel.state.time, grown)) return;
+  const std::vector<PlantPoint>& middle = organ->middle;
+  for (const auto& [colour, width] : {std::pair{rgb(0x000000, 170), 5.5f}, {rgb(0xFFFFFF), 2.6f}})
+    for (std::size_t i = 1; i < middle.size(); ++i) view.list.AddLine(view.onScreen(middle[i - 1]), view.onScreen(middle[i]), colour, view.panel.px(width));
 }
 
 // ---- dragging a node in space ----------------------------------------------------------------------------------------------
@@ -222,6 +248,7 @@ Taken plantPane(const Panel& panel, Area area) {
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(panel.plantPicture.id())), low, high, {0, 0}, {1, 1}, rgb(0xFFFFFF, isDimmed ? 120 : 255));
   drawGhosts(view);
   if (panel.state.showSkeleton && !panel.state.grammarDraft) drawSkeleton(view);
+  drawOrgan(view, *grown);
   drawDrag(view);
   ImGui::PushFont(font(Face::Small));
   const float pad = panel.px(7);

@@ -14,6 +14,7 @@
 #include "ui/clicking.hpp"
 #include "ui/preferences.hpp"
 #include "ui/texts.hpp"
+#include "ui/organ_pick.hpp"
 #include "ui/theme.hpp"
 
 #include <array>
@@ -244,6 +245,8 @@ struct UiState {
   std::string find;
   bool sideBySide = false;                                         ///< all three grammars at once
   std::optional<GrammarDraft> grammarDraft;
+  std::optional<ChosenOrgan> organ;                                ///< Panel::organ says whether it is still of what is shown
+  std::pair<std::uint64_t, document::GrammarKind> organOf;         ///< the project's revision and the grammar when it was chosen
   std::optional<int> shownSegment;                                 ///< whose lines were scrolled to last
   std::optional<int> wantedLine;                                   ///< of the grammar, from 0: to be scrolled to
   simeco::Environment environment;                                 ///< that the plant is grown in

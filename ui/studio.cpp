@@ -368,7 +368,7 @@ struct Studio::Inside {
     const auto* grown = shown();
     if (grown == nullptr || !grown->growth || state.plantPaneSize.x < 16 || state.plantPaneSize.y < 16 || !state.showPlant || drawingTrouble) return;
     const double factor = state.turningPlant || state.playing ? 0.5 : 1;
-    PlantQuestion question{*grown->growth, state.time < 0 ? grown->end : std::min(state.time, grown->end), {}, {}};
+    PlantQuestion question{*grown->growth, timeShown(state.time, *grown), {}, {}};
     question.size_px = glm::max(glm::ivec2(glm::dvec2(state.plantPaneSize) * factor), glm::ivec2(16));
     question.camera = resized(orbitCamera(state.orbit, grown->middle, grown->reach, state.plantPaneSize), factor);
     question.measuredUntil = measuredUntil();

@@ -2,6 +2,7 @@
 #include "document/lookup.hpp"
 #include "ui/grammar_links.hpp"
 #include "ui/headless.hpp"
+#include "ui/organ_pick.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,6 +43,50 @@ TEST(GrammarLinks, EveryStageAndRuleOfAStemSpeaksOfItsSegment) {
   EXPECT_EQ(segments[3], 0);
   EXPECT_EQ(segments[4], 0);
   EXPECT_EQ(segments[6], 1);
+}
+
+TEST(OrganPick, TheOneInFrontOfThoseUnderTheMouseIsChosen) {
+  simeco::Plant plant;
+  plant.styles = {{.kind = simeco::OrganKind::Stem, .stage = stageOfSegment(4)}, {.kind = simeco::OrganKind::Leaf, .stage = 1}};
+  const auto organ = [&](simeco::OrganKind kind, PlantPoint base, glm::dvec3 direction, double length, double radius) {
+    simeco::Organ made;
+    made.kind = kind;
+    made.style = kind == simeco::OrganKind::Leaf ? 1 : 0;
+    made.base = base;
+    made.direction = PlantDirection::along(direction);
+    made.length = length;
+    made.radius = radius;
+    return made;
+  };
+  plant.organs = {organ(simeco::OrganKind::Stem, {{0, 0, 0}}, {0, 1, 0}, 1, 0.01), organ(simeco::OrganKind::Leaf, {{0, 0.5, 0}}, {0, 0, 1}, 0.3, 0.1)};
+  plant.organs[1].parent = simeco::OrganId(0);
+  const auto camera = *skeleton3d::nominalCamera("front", {.model = skeleton3d::CameraModel::Perspective, .target = {{0, 0.5, 0}}, .distance = 3, .focal_px = 1000, .size_px = {800, 800}});
+  const auto at = [&](PlantPoint p) { return skeleton3d::project(camera, p); };
+  EXPECT_EQ(organUnder(plant, camera, at({{0, 0.5, 0.2}}), 4), simeco::OrganId(1)) << "the leaf stands before the stem";
+  EXPECT_EQ(organUnder(plant, camera, at({{0, 0.9, 0}}), 4), simeco::OrganId(0));
+  EXPECT_FALSE(organUnder(plant, camera, at({{0.3, 0.9, 0}}), 4));
+  EXPECT_EQ(segmentOfOrgan(plant, simeco::OrganId(1)), 4) << "a leaf is of the segment it stands on";
+  simeco::Organ stalk = plant.organs[1];
+  stalk.kind = simeco::OrganKind::Stem;
+  stalk.style = 2;
+  plant.styles.push_back({.kind = simeco::OrganKind::Stem, .stage = stageOfSegment(0) - 1});
+  plant.organs.insert(plant.organs.begin() + 1, stalk);
+  plant.organs[2].parent = simeco::OrganId(1);
+  EXPECT_EQ(segmentOfOrgan(plant, simeco::OrganId(2)), 4) << "through its stalk";
+}
+
+TEST(OrganPick, AChosenLeafLightsUpItsRuleItsSegmentAndItsClicks) {
+  HeadlessStudio headless = opened();
+  run(headless, "ui wait\nui way grammar\nui press kind_initial\nui wait\n");
+  auto& state = headless.studio().state();
+  const auto pane = state.landmarks.at("pane_plant");
+  // All over the pane, until a leaf is under the mouse.
+  for (float y = 40; y < pane[3] && !(state.organ && state.organ->kind == simeco::OrganKind::Leaf); y += 12)
+    for (float x = 40; x < pane[2] && !(state.organ && state.organ->kind == simeco::OrganKind::Leaf); x += 12)
+      run(headless, "ui click_in pane_plant " + std::to_string(x) + " " + std::to_string(y) + "\n");
+  ASSERT_TRUE(state.organ && state.organ->kind == simeco::OrganKind::Leaf);
+  EXPECT_TRUE(state.organ->where) << "its rule's place in the text";
+  EXPECT_TRUE(state.selection.node) << "the node that its segment ends at";
 }
 
 TEST(GrammarPane, ALongerSegmentInTheGrammarMovesTheClicksOfWhatGrowsOnIt) {
