@@ -41,6 +41,20 @@ Result<std::vector<quantify::Measurements>> alsoOf(const EmitCommand& command) {
   return plants;
 }
 
+/// The grammar of a project; or of a skeleton file, which has a name and no more.
+Result<simeco::Grammar> grammarIn(const EmitCommand& command, const document::ChainOptions& options) {
+  if (std::filesystem::path(command.project).extension() == ".json") {
+    const auto plant = document::readPlant(command.project, options);
+    if (!plant) return plant.failure();
+    document::Project project;
+    project.name = plant->name;
+    return document::grammarOf(project, plant->measurements, command.kind, options);
+  }
+  const auto open = document::loadProject(command.project);
+  if (!open) return open.failure();
+  return document::grammarOf(*open, command.kind, options);
+}
+
 /// Options that the kind does not read are mistakes: nothing is ignored silently.
 std::string misplacedOption(const CLI::App& sub, const EmitCommand& command) {
   using document::GrammarKind;
@@ -82,9 +96,7 @@ int run(const EmitCommand& command) {
                                        .predictive = {.style = command.style, .stages = command.stages, .also = *also},
                                        .structure = structure,
                                        .watch = terminalWatch()};
-  const auto open = document::loadProject(command.project);
-  if (!open) return report(open.error());
-  const auto grammar = document::grammarOf(*open, command.kind, options);
+  const auto grammar = grammarIn(command, options);
   if (!grammar) return report(grammar.error());
   const auto text = emit::inDialect(*grammar, command.dialect, {.seed = command.seed});
   return text ? written(*text, command.out) : report(text.error());
@@ -105,8 +117,9 @@ void addEmit(CLI::App& sub, int& status) {
   addExamples(sub, "  axil emit plant.axil --kind initial > plant.simeco      # regrows exactly what was measured\n"
                    "  axil emit plant.axil --kind predictive > next.simeco    # goes on growing from there\n"
                    "  axil emit plant.axil --kind structured > rules.simeco   # the same habit in few rules\n"
+                   "  axil emit a.json --kind structured --also b.json c.json > kind.simeco   # of plants measured elsewhere\n"
                    "  axil emit plant.axil --kind initial --dialect cpfg -o plant.l     # and plant.v, plant.a");
-  addProject(sub, command.project);
+  sub.add_option("PROJECT", command.project, "The project (.axil), or a skeleton file (.json) as axil skeleton and axil grow -o plant.json write it")->required();
   sub.add_option("--kind", command.kind, "initial, predictive or structured")->transform(oneOf(kKinds))->option_text("KIND [initial]");
   sub.add_option("--dialect", command.dialect, "simeco, cpfg, lpy or mtg")->transform(oneOf(kDialects))->option_text("DIALECT [simeco]");
   sub.add_option("--decimals", command.decimals, "Digits after the point; -1 prints full precision")->check(CLI::Range(-1, 15))->capture_default_str();

@@ -26,7 +26,7 @@ std::string branchingWords(const std::vector<PlantStructure>& structures) {
 }
 
 std::string patternWords(const std::vector<MeasuredPlant>& plants) {
-  const auto pattern = quantify::branchingPatternOf(plants, 0);
+  const auto pattern = quantify::branchingPatternOf(plants, quantify::scheduleOf(plants), 0);
   if (pattern.habit == quantify::BranchingHabit::EveryKth) return ", every " + std::to_string(pattern.period) + ". node branches";
   if (pattern.habit == quantify::BranchingHabit::None || pattern.habit == quantify::BranchingHabit::Even) return {};
   return std::string(", ") + quantify::nameOf(pattern.habit);
@@ -43,8 +43,7 @@ std::string arrangementWords(const std::vector<MeasuredPlant>& plants, quantify:
 }  // namespace
 
 std::string habitWords(std::span<const quantify::Measurements> measured) {
-  std::vector<PlantStructure> structures;
-  for (const auto& m : measured) structures.push_back(quantify::plantStructure(m));
+  const std::vector<PlantStructure> structures = quantify::plantStructures(measured);
   std::vector<MeasuredPlant> plants;
   int orders = 0;
   for (std::size_t p = 0; p < measured.size(); ++p) {

@@ -111,6 +111,8 @@ class Predictor {
     return builder_.call("normal", {angle(mean), angle(deviation)});
   }
   ExprId scaled(ExprId length, double factor) { return std::abs(factor - 1) < 5e-5 ? length : times(length, ratio(factor)); }
+  /// How a step that changes from rank to rank has changed at `rank`.
+  ExprId bentBy(double curve, ExprId rank) { return builder_.call("exp", {times(builder_.number(curve, 6), rank)}); }
   /// `length` with the order's chance around it.
   ExprId varied(ExprId length, double miss) {
     if (miss < 5e-5) return length;
@@ -148,7 +150,7 @@ class Predictor {
 
   /// Gives leaves that will still grow or fall a stage of their own.
   void ageLeaves() {
-    const quantify::PlantStructure structure = quantify::plantStructure(m_);
+    const quantify::PlantStructure structure = quantify::plantStructure(m_, outlook_.statistics.stemEnds);
     for (std::size_t s = 0; s < plan_.segments.size(); ++s) {
       if (plan_.segments[s].leaves.empty() || !out_.ruleOf[s]) continue;
       std::size_t leaf = 0;
@@ -296,7 +298,9 @@ class Predictor {
 
   /// The foretold length of an axis that branches off. The bearer is the segment below the one whose length an apex knows.
   ExprId branchLength(const OrderOutlook& bearer, const OrderOutlook& o, double armRatio) {
-    return o.start == quantify::StartRule::Usual ? size(o.usualLength) : scaled(name("length"), armRatio / bearer.length.step);
+    if (o.start == quantify::StartRule::Usual) return size(o.usualLength);
+    const ExprId length = scaled(name("length"), armRatio / bearer.length.step);
+    return bearer.length.curve == 1 ? length : times(length, bentBy(-std::log(bearer.length.curve), minus(name("rank"), builder_.whole(1))));
   }
 
   /// What branches off at an apex' node.
@@ -336,7 +340,8 @@ class Predictor {
     if (bent) around = minus(around, name("side"));
     if (leaves && o.leafAtOwnTip) addLeaves(to, o, around);
     ExprId length = scaled(name("length"), o.length.step);
-    if (o.length.step > 1 + 5e-5) length = builder_.call("min", {length, size(kLongest * longest_)});
+    if (o.length.curve != 1) length = times(length, bentBy(std::log(o.length.curve), name("rank")));
+    if (o.length.step > 1 + 5e-5 || o.length.curve > 1) length = builder_.call("min", {length, size(kLongest * longest_)});
     to.push_back(apex(apexOf(o.order), {plus(name("rank"), builder_.whole(1)), length, around, builder_.whole(0), minus(name("left"), builder_.whole(1))}, bent));
     return to;
   }
@@ -493,7 +498,7 @@ class Predictor {
       fates += (fates.empty() ? "" : ", ") + (fate.goesOn ? "goes on" + branches : fate.branches > 0 ? "forks into " + std::to_string(fate.branches) : std::string("ends")) + " " + fixed(100 * fate.share, 0) + " %";
     }
     std::vector<std::string> lines{"// Order " + std::to_string(o.order) + ", from " + countOf(o.segments, "segment", "segments") + ": an apex " + fates + shapeWords(o.fates) + "."};
-    std::string growth = "// Its next length is foretold from " + std::string(quantify::nameOf(o.length.rule)) + ", x " + fixed(o.length.step, 4) + " a rank; 90 % within a factor of " +
+    std::string growth = "// Its next length is foretold from " + std::string(quantify::nameOf(o.length.rule)) + ", x " + fixed(o.length.step, 4) + " a rank" + (o.length.curve == 1 ? "" : ", itself x " + fixed(o.length.curve, 4) + " a rank") + "; 90 % within a factor of " +
                          fixed(std::exp(kNinety * o.length.miss), 3) + " (" + countOf(o.length.samples, "sample", "samples") + ").";
     if (!o.schedule.steady) growth += " It makes " + fixed(o.schedule.rate, 2) + " segments a stage" + (o.schedule.lasting ? " for " + fixed(*o.schedule.lasting, 0) + " stages." : ".");
     if (o.most) growth += " Axes end after " + countOf(static_cast<std::size_t>(*o.most), "segment", "segments") + ".";

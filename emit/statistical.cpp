@@ -204,7 +204,7 @@ class FamilyText {
     return leaves.empty() ? text : text + "Leaf {\n" + leaves + "}\n";
   }
   std::string leafShape(const FamilyOrder& o) const {
-    const quantify::PlantStructure structure = quantify::plantStructure(m_);
+    const quantify::PlantStructure structure = quantify::plantStructure(m_, family_.statistics.stemEnds);
     std::string shape;
     for (std::size_t s = 0; s < m_.segments.size(); ++s)
       for (const auto& leaf : m_.segments[s].leaves)
@@ -399,7 +399,7 @@ class FamilyText {
 
 /// Radii by the pipe model, the median of each order's.
 std::vector<double> usualRadii(const Measurements& m, const Plan& plan, const Family& family) {
-  const quantify::PlantStructure structure = quantify::plantStructure(m);
+  const quantify::PlantStructure structure = quantify::plantStructure(m, family.statistics.stemEnds);
   std::vector<double> all;
   for (const PlannedSegment& s : plan.segments) all.push_back(s.radius);
   std::vector<double> radii;

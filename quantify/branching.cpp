@@ -123,13 +123,17 @@ const char* nameOf(BranchingHabit habit) {
   return "none";
 }
 
-int branchingDelayOf(std::span<const MeasuredPlant> plants, int order) { return delayOf(sitesOf(plants, order)); }
+int branchingDelayOf(std::span<const MeasuredPlant> plants, const Schedule& schedule, int order) {
+  const int seen = delayOf(sitesOf(plants, order));
+  const bool told = order + 1 < static_cast<int>(schedule.orders.size()) && schedule.of(order).steady && schedule.of(order + 1).steady;
+  return told ? std::min(seen, std::max(0, schedule.of(order + 1).delay)) : seen;
+}
 
-BranchingPattern branchingPatternOf(std::span<const MeasuredPlant> plants, int order) {
+BranchingPattern branchingPatternOf(std::span<const MeasuredPlant> plants, const Schedule& schedule, int order) {
   BranchingPattern pattern;
   pattern.order = order;
   std::vector<Site> sites = sitesOf(plants, order);
-  pattern.delay = delayOf(sites);
+  pattern.delay = branchingDelayOf(plants, schedule, order);
   std::erase_if(sites, [&](const Site& s) { return s.fromTip <= pattern.delay; });
   pattern.nodes = sites.size();
   std::array<double, 3> counts{0, 0, 0};

@@ -6,8 +6,9 @@
 /// nodes of an axis, which have had no time to branch, are left out: *delay* is how many nodes from the tip branches begin. Where branches stand
 /// evenly, their sizes tell: clearly largest at the top is acrotonic; at the base basitonic, where they also grew faster for their age. Source: Barthelemy and Caraglio 2007 (terms).
 
-#include "quantify/structure.hpp"
 #include "quantify/phyllotaxis.hpp"
+#include "quantify/schedule.hpp"
+#include "quantify/structure.hpp"
 
 #include <array>
 #include <span>
@@ -31,10 +32,11 @@ struct BranchingPattern {
   double growthUnit = 0;                     ///< segments a growth unit has: the period, or a whole axis
 };
 
-/// Of the axes of `order`, of all plants together.
-[[nodiscard]] BranchingPattern branchingPatternOf(std::span<const MeasuredPlant> plants, int order);
+/// Of the axes of `order`, of all plants together, whose schedule it is.
+[[nodiscard]] BranchingPattern branchingPatternOf(std::span<const MeasuredPlant> plants, const Schedule& schedule, int order);
 
-/// Nodes between tip and youngest branches, of the axes of `order`; 0 where branches come with the next segment.
-[[nodiscard]] int branchingDelayOf(std::span<const MeasuredPlant> plants, int order);
+/// Nodes between tip and youngest branches, of the axes of `order`; 0 where branches come with the next segment. Where branches grow steadily their own lengths tell when they
+/// began: nodes at the top that have none then never will.
+[[nodiscard]] int branchingDelayOf(std::span<const MeasuredPlant> plants, const Schedule& schedule, int order);
 
 }  // namespace axil::quantify

@@ -40,8 +40,8 @@ struct Samples {
   std::vector<Drawn> drawn;
 };
 
-void addSegments(std::vector<Samples>& all, const Measurements& m, std::size_t plant, double unit) {
-  const PlantStructure structure = plantStructure(m);
+void addSegments(std::vector<Samples>& all, const Measurements& m, StemEnds ends, std::size_t plant, double unit) {
+  const PlantStructure structure = plantStructure(m, ends);
   std::size_t leaves = m.rootLeaves.size();
   const auto add = [&](std::size_t quantity, double value) { all[quantity].drawn.push_back({value, plant}); };
   for (std::size_t s = 0; s < m.segments.size(); ++s) {
@@ -62,7 +62,10 @@ std::vector<Samples> samplesOf(std::span<const Measurements> a, std::span<const 
   double unit = 0;
   for (const Measurements& m : a) unit += heightOf(nodesOf(m)) / static_cast<double>(a.size());
   std::vector<Samples> all{{"length", {}}, {"bend", {}}, {"insertion", {}}, {"branches", {}}, {"axis_segments", {}}, {"plant_segments", {}}, {"leaves", {}}, {"leaf_length", {}}};
-  for (std::size_t p = 0; p < a.size() + b.size(); ++p) addSegments(all, p < a.size() ? a[p] : b[p - a.size()], p, unit);
+  std::vector<Measurements> both(a.begin(), a.end());
+  both.insert(both.end(), b.begin(), b.end());
+  const StemEnds ends = stemEndsOf(both);  // one measure for both sets
+  for (std::size_t p = 0; p < both.size(); ++p) addSegments(all, both[p], ends, p, unit);
   for (Samples& samples : all)
     std::sort(samples.drawn.begin(), samples.drawn.end(), [](const Drawn& x, const Drawn& y) { return std::pair(x.value, x.plant) < std::pair(y.value, y.plant); });
   return all;

@@ -44,15 +44,21 @@ std::vector<double> quantiles(const std::vector<double>& sorted) {
   return table;
 }
 
+/// Their number and mean, as if they were all alike. Sorts them.
+Distribution constantOf(std::vector<double>& values, const Moments& m) {
+  std::sort(values.begin(), values.end());
+  Distribution d;
+  d.samples = values.size();
+  d.centre = m.mean;
+  return d;
+}
+
 }  // namespace
 
 Distribution distributionOf(std::vector<double> values) {
-  Distribution d;
-  d.samples = values.size();
-  if (values.empty()) return d;
-  std::sort(values.begin(), values.end());
   const Moments m = momentsOf(values);
-  d.centre = m.mean;
+  Distribution d = constantOf(values, m);
+  if (values.empty()) return d;
   const double size = std::max(std::abs(values.front()), std::abs(values.back()));
   if (m.deviation <= 1e-4 * size || values.size() < 2) return d;
   d.spread = m.deviation;
@@ -82,13 +88,9 @@ Distribution distributionOf(std::vector<double> values) {
 }
 
 Distribution countsOf(std::vector<double> values) {
-  Distribution d;
-  d.samples = values.size();
-  if (values.empty()) return d;
-  std::sort(values.begin(), values.end());
   const Moments m = momentsOf(values);
-  d.centre = m.mean;
-  if (values.front() == values.back()) return d;
+  Distribution d = constantOf(values, m);
+  if (values.empty() || values.front() == values.back()) return d;
   d.spread = m.deviation;
   d.form = Distribution::Form::Table;
   // Quantiles of whole numbers are whole.

@@ -13,6 +13,7 @@ constexpr double kTuning = 1.345;       // Huber: 95 % efficient on normal sampl
 constexpr double kNormalMad = 1.4826;
 constexpr int kSteps = 50;
 constexpr double kMostExtrapolation = 10;
+constexpr double kNormalTail = 2.3;     // deviations beyond which plants are said to differ, 1 %
 
 double meanOf(std::span<const double> values) {
   double sum = 0;
@@ -46,6 +47,36 @@ double withinOf(const std::map<std::size_t, std::vector<double>>& plants, const 
     ++p;
   }
   return freedom > 0 ? std::sqrt(squares / freedom) : 0;
+}
+
+/// How much shares of plants differ beyond chance, where p is all plants' share and each makes `own[i]` of them. How many nodes a plant has may hang on what became of the
+/// first ones (an axis that ends has no more), so a plant's own share is no binomial one; but its sum of (sample - p) is as wide as p (1 - p) times its nodes, whatever stopped it.
+double betweenShares(std::span<const double> own, std::span<const double> counts, double p) {
+  double n = 0, squares = 0, off = 0;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    n += counts[i];
+    squares += counts[i] * counts[i];
+    off += std::pow(counts[i] * (own[i] - p), 2);
+  }
+  const double single = p * (1 - p);
+  const double byChance = single * (n - squares / n);
+  if (off <= byChance + kNormalTail * single * std::sqrt(2 * squares)) return 0;
+  return std::sqrt((off - byChance) / squares);
+}
+
+/// The mean of shares: of all nodes alike, unless plants differ by more than chance.
+Combined combinedShares(std::span<const double> own, std::span<const double> counts, double p) {
+  Combined result;
+  result.between = betweenShares(own, counts, p);
+  double weights = 0;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const double w = result.between > 0 ? 1 / (p * (1 - p) / counts[i] + result.between * result.between) : counts[i];
+    weights += w;
+    result.value += w * own[i];
+  }
+  result.value /= weights;
+  result.error = result.between > 0 ? std::sqrt(1 / weights) : std::sqrt(p * (1 - p) / weights);
+  return result;
 }
 
 }  // namespace
@@ -152,13 +183,14 @@ Estimate estimateOf(std::span<const Sample> samples, SampleKind kind) {
   // One sample a plant: plants and samples cannot be told apart.
   else if (all.size() == plants.size()) within = deviationAround(all, mean);
   std::vector<double> values;
-  std::vector<double> variances;
+  std::vector<double> variances, counts;
   std::size_t p = 0;
   for (const auto& [plant, own] : plants) {
     values.push_back(centres[p++].value);
+    counts.push_back(static_cast<double>(own.size()));
     variances.push_back(within * within / static_cast<double>(own.size()));
   }
-  const Combined all2 = combined(values, variances);
+  const Combined all2 = kind == SampleKind::Share ? combinedShares(values, counts, mean) : combined(values, variances);
   estimate.own = estimate.value = all2.value;
   estimate.error = all2.error;
   estimate.between = all2.between;

@@ -121,7 +121,8 @@ class FamilyMaker {
 
   void setExtent(std::size_t g) {
     FamilyOrder& o = family_.orders[g];
-    bool steady = g == 0 || family_.orders[g - 1].extent == Extent::Stages;
+    // What comes together with its bearer stands on an axis' last segment too, as what an axis ends in.
+    bool steady = !schedule().branchesAtOnce && (g == 0 || family_.orders[g - 1].extent == Extent::Stages);
     for (int order = o.order; order <= o.lastOrder; ++order) steady = steady && schedule().of(order).steady;
     std::size_t full = 0, all = 0;
     if (g == 0) {

@@ -44,7 +44,7 @@ constexpr std::size_t indexOf(Quantity q) { return static_cast<std::size_t>(q); 
 class Gatherer {
  public:
   Gatherer(std::span<const MeasuredPlant> plants, LayeredStatistics& out) : plants_(plants), out_(out) {
-    for (int order = 0; order < static_cast<int>(out.schedule.orders.size()); ++order) delays_.push_back(branchingDelayOf(plants, order));
+    for (int order = 0; order < static_cast<int>(out.schedule.orders.size()); ++order) delays_.push_back(branchingDelayOf(plants, out.schedule, order));
   }
 
   void gather() {
@@ -232,7 +232,7 @@ Measurements scaled(Measurements m, double factor, const std::string& unit) {
 
 void addAngles(LayeredStatistics& out, std::span<const MeasuredPlant> plants) {
   for (int order = 0; order < static_cast<int>(out.schedule.orders.size()); ++order) {
-    out.patterns.push_back(branchingPatternOf(plants, order));
+    out.patterns.push_back(branchingPatternOf(plants, out.schedule, order));
     out.leaves.push_back(phyllotaxisOf(plants, OrgansAround::Leaves, order));
     out.branchesAround.push_back(phyllotaxisOf(plants, OrgansAround::Branches, order));
   }
@@ -312,7 +312,7 @@ Result<PreparedPlants> prepared(std::span<const Measurements> given) {
   auto plants = inOneUnit(given, result.warnings);
   if (!plants) return plants.failure();
   result.plants = std::move(*plants);
-  for (const Measurements& m : result.plants) result.structures.push_back(plantStructure(m));
+  result.structures = plantStructures(result.plants);
   for (std::size_t p = 0; p < result.plants.size(); ++p) result.measured.push_back({&result.plants[p], &result.structures[p]});
   return result;
 }
@@ -323,6 +323,7 @@ LayeredStatistics statisticsOf(const PreparedPlants& ready) {
   out.warnings = ready.warnings;
   out.unit = ready.plants.front().unit;
   out.plants = ready.plants.size();
+  out.stemEnds = stemEndsOf(ready.plants);
   std::vector<double> straightness;
   for (const PlantStructure& structure : ready.structures) {
     out.branching.push_back(structure.branching);

@@ -146,6 +146,7 @@ struct ArmLayers {
 struct LayeredStatistics {
   std::string unit;
   std::size_t plants = 0;
+  StemEnds stemEnds = StemEnds::GoOn;           ///< of the plants together
   std::vector<QuantityLayers> layers;           ///< by Quantity
   std::vector<Sample> samples[kQuantities];     ///< what they stand on
   std::vector<BranchShares> branches;

@@ -16,42 +16,15 @@ namespace axil::quantify {
 namespace {
 
 constexpr double kNinety = 1.6448536269514722;  // standard deviations that hold 90 % of normal samples
-constexpr std::size_t kFew = 5;
 constexpr std::size_t kJudges = 3;
 
 std::size_t placeOf(SegmentId id) { return static_cast<std::size_t>(id.value); }
-
-double deviationOf(std::span<const double> misses) {
-  if (misses.empty()) return 0;
-  double sum = 0;
-  for (const double m : misses) sum += m * m;
-  return std::sqrt(sum / static_cast<double>(misses.size()));
-}
 
 /// Student's two-sided 90 % over the normal's: intervals from few samples are wider.
 double fewFactor(std::size_t samples) {
   if (samples < 2) return 2;
   const double f = static_cast<double>(samples - 1);
   return 1 + 1.5 / f + 1 / (f * f);
-}
-
-/// Foretells one rank of an axis from the ranks below it.
-double foretold(LengthRule rule, std::span<const double> below, const OrderCourse& course) {
-  const double rank = static_cast<double>(below.size());
-  if (rule == LengthRule::Last && !below.empty()) return below.back() + course.step;
-  if (rule == LengthRule::Axis && !below.empty()) return course.levelAt(below, rank);
-  return course.start + course.step * rank;
-}
-
-/// By how much an axis' own level, told by so many segments, adds to a miss.
-double levelDoubt(LengthRule rule, std::size_t below, const OrderCourse& course) {
-  return rule == LengthRule::Axis ? std::sqrt(1 + 1 / (static_cast<double>(below) + course.weight)) : 1;
-}
-
-/// Of the logarithm of a next length: its scatter, the doubt about the axis' level, and that about the order's step over half the axis.
-double doubtOf(const LengthOutlook& length, std::size_t below, const OrderCourse& course) {
-  const double scatter = length.miss * levelDoubt(length.rule, below, course);
-  return length.rule == LengthRule::Last ? scatter : std::hypot(scatter, course.stepError * (static_cast<double>(below) + 1) / 2);
 }
 
 class Maker {
@@ -84,7 +57,7 @@ class Maker {
     o.delay = stats().patterns[static_cast<std::size_t>(order)].delay;
     setEnd(o);
     setFates(o);
-    setLength(o);
+    courses_[order] = setLength(o, plants_, stats());
     o.bend = stats().of(Quantity::Bend).nearest(order);
     o.insertion = stats().of(Quantity::Insertion).nearest(order - 1);
     setRadius(o);
@@ -118,42 +91,6 @@ class Maker {
       }
     }
     o.fates = fateTableOf(nodes);
-  }
-
-  void setLength(OrderOutlook& o) {
-    const OrderLayer* layer = stats().of(Quantity::Length).order(o.order);
-    const Trend& trend = layer->trend;
-    o.segments = layer->estimate.samples;
-    o.usualLength = std::exp(trend.start);
-    const double ratio = stats().of(Quantity::LengthRatio).all.samples > 0 ? std::log(stats().of(Quantity::LengthRatio).nearest(o.order).value) : 0;
-    OrderCourse course{trend.start, trend.clear() ? trend.slope : 0, 100, trend.slopeError};
-    // Axes of one segment say nothing of levels.
-    if (layer->estimate.samples > o.schedule.axes) course.weight = std::min(100.0, std::pow(trend.residual / std::max(trend.axisDeviation, 1e-9), 2));
-    courses_[o.order] = course;
-    double least = std::numeric_limits<double>::infinity();
-    for (const LengthRule rule : {LengthRule::Trend, LengthRule::Axis, LengthRule::Last}) {
-      OrderCourse own = course;
-      if (rule == LengthRule::Last) own.step = ratio;
-      std::vector<double> misses, alike;  // as they are; and as they would be for an axis whose level is known
-      eachAxis(o.order, [&](const std::vector<double>& logs) {
-        for (std::size_t r = 1; r < logs.size(); ++r) {
-          misses.push_back(logs[r] - foretold(rule, std::span(logs).first(r), own));
-          alike.push_back(misses.back() / levelDoubt(rule, r, own));
-        }
-      });
-      // A later rule must be better by more than rounding; where too few misses judge, the segment below it is.
-      const double miss = deviationOf(misses);
-      if (misses.size() >= kJudges && miss >= 0.98 * least) continue;
-      if (misses.size() < kJudges && rule != LengthRule::Last) continue;
-      least = miss;
-      o.length = {rule, std::exp(own.step), deviationOf(alike), misses.size()};
-    }
-  }
-  template <class Visit>
-  void eachAxis(int order, Visit visit) {
-    for (const MeasuredPlant& plant : plants_)
-      for (const Axis& axis : plant.structure->axes)
-        if (axis.order == order) visit(logLengths(*plant.measurements, axis));
   }
 
   void setRadius(OrderOutlook& o) {
@@ -257,6 +194,7 @@ class Maker {
     const std::vector<double> logs = logLengths(*plant.measurements, axis);
     OrderCourse course = courses_.at(axis.order);
     course.step = std::log(o.length.step);
+    course.curve = std::log(o.length.curve);
     tip.length = std::exp(foretold(o.length.rule, logs, course));
     tip.miss = o.length.samples >= 2 ? doubtOf(o.length, logs.size(), course) : std::max(o.length.miss, o.startMiss);
     const double reach = kNinety * tip.miss * fewFactor(o.length.samples);
@@ -319,18 +257,6 @@ double OrderOutlook::firstLength(double bearer, double level) const {
     case StartRule::Level: return bearerRatio * level;
   }
   return usualLength;
-}
-
-std::vector<double> logLengths(const Measurements& m, const Axis& axis) {
-  std::vector<double> logs;
-  for (const SegmentId s : axis.segments) logs.push_back(std::log(m.at(s).length));
-  return logs;
-}
-
-double OrderCourse::levelAt(std::span<const double> logs, double rank) const {
-  double off = 0;
-  for (std::size_t i = 0; i < logs.size(); ++i) off += logs[i] - start - step * static_cast<double>(i);
-  return start + step * rank + off / (static_cast<double>(logs.size()) + weight);
 }
 
 Outlook outlookOf(const PreparedPlants& plants) {

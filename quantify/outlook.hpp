@@ -6,7 +6,8 @@
 /// ends) and at which ranks (fates), how leaves and branches stand, how large leaves get, how many stages they take and after how many they are gone.
 /// The length of a next segment is foretold by the rule that foretold the measured ones best, each from the segments below it: the order's
 /// trend along the rank, the axis' own level on that trend, or the segment below times the usual ratio; its misses make the interval.
-/// Rules that are no better than chance are not told apart: fewer than three misses take the trend. Source of the idea: L-Grammar Generator
+/// A trend may bend (lengths that swell and then dwindle along an axis) where that is more than chance. Rules that are no better than chance are not told apart: fewer than three misses take
+/// the segment below. Source of the idea: L-Grammar Generator
 /// 2005, section 3.4.2 and chapter 4; choice by hindsight as in Hyndman and Athanasopoulos, Forecasting (2021), section 5.10.
 
 #include "base/result.hpp"
@@ -25,7 +26,8 @@ enum class LengthRule { Trend, Axis, Last };
 /// How lengths of an order's next segments are foretold. Misses are of logarithms.
 struct LengthOutlook {
   LengthRule rule = LengthRule::Trend;
-  double step = 1;          ///< factor from one rank to the next
+  double step = 1;          ///< factor from rank 0 to the next
+  double curve = 1;         ///< by which that factor changes from rank to rank, where lengths are seen to swell or to dwindle so
   double miss = 0;          ///< standard deviation of log(true / foretold)
   std::size_t samples = 0;  ///< segments it was judged by
 };

@@ -41,14 +41,33 @@ double furthestOf(const std::vector<Case>& cases) {
   return furthest;
 }
 
-std::vector<Case> casesOf(std::span<const MeasuredPlant> plants, const Schedule& schedule, int order) {
+/// Whether a branch's first segment comes a stage after its bearer or together with it.
+enum class Insertions { AStageLater, AtOnce };
+
+bool isNewborn(const Axis& axis) { return axis.segments.size() == 1 && axis.laterals.empty(); }
+
+/// Whether an axis has ended in a fork. What came together with its last segment is none.
+bool forksAt(const PlantStructure& structure, const Axis& axis, Insertions insertions) {
+  if (!axis.forks || insertions == Insertions::AStageLater) return axis.forks;
+  return std::any_of(axis.laterals.begin(), axis.laterals.end(), [&](AxisId lateral) { return structure.at(lateral).bearer == axis.tip() && !isNewborn(structure.at(lateral)); });
+}
+
+/// The stage of a plant's newest segment.
+double ageOf(const MeasuredPlant& plant, Insertions insertions) {
+  double age = 0;
+  for (std::size_t s = 0; s < plant.measurements->segments.size(); ++s)
+    age = std::max(age, static_cast<double>(plant.measurements->segments[s].level - (insertions == Insertions::AtOnce ? plant.structure->places[s].order : 0)));
+  return age;
+}
+
+std::vector<Case> casesOf(std::span<const MeasuredPlant> plants, const Schedule& schedule, int order, Insertions insertions) {
   std::vector<Case> cases;
   for (std::size_t p = 0; p < plants.size(); ++p) {
     const std::vector<double> heights = heightsOf(*plants[p].measurements);
     for (std::size_t a = 0; a < plants[p].structure->axes.size(); ++a) {
       const Axis& axis = plants[p].structure->axes[a];
       if (axis.order != order) continue;
-      cases.push_back({p, a, schedule.plants[p].now - bearersBirth(schedule.plants[p], axis), static_cast<double>(axis.segments.size()), heights[placeOf(axis.base())], axis.forks});
+      cases.push_back({p, a, schedule.plants[p].now - bearersBirth(schedule.plants[p], axis), static_cast<double>(axis.segments.size()), heights[placeOf(axis.base())], forksAt(*plants[p].structure, axis, insertions)});
     }
   }
   return cases;
@@ -109,12 +128,12 @@ std::vector<Case> unforked(const std::vector<Case>& cases) {
 }
 
 /// Steady growth with the delay that most axes keep to; none where too few do, or where growth by chance explains them better.
-std::optional<int> steadyDelay(const std::vector<Case>& cases) {
+std::optional<int> steadyDelay(const std::vector<Case>& cases, int earliest) {
   double furthest = 0;
   for (const Case& c : cases) furthest = std::max(furthest, c.stages - c.height);
   std::optional<int> best;
   std::size_t most = 0;
-  for (int delay = 0; delay <= static_cast<int>(furthest); ++delay) {
+  for (int delay = earliest; delay <= static_cast<int>(furthest); ++delay) {
     std::size_t matching = 0;
     std::size_t tooLong = 0;
     for (const Case& c : cases) {
@@ -172,17 +191,17 @@ void setBirths(PlantSchedule& plant, const Axis& axis, const OrderSchedule& orde
   for (std::size_t j = 0; j < axis.segments.size(); ++j) {
     const double own = static_cast<double>(j);
     const double after = order.steady ? 1 + order.delay + own : std::ceil((own + phase) / std::max(order.rate, c.segments / std::max(1.0, c.stages)));
-    plant.birth[placeOf(axis.segments[j])] = std::min(plant.now, before + std::max(after, own + 1));
+    plant.birth[placeOf(axis.segments[j])] = std::min(plant.now, before + std::max(after, own + (order.delay < 0 ? 0 : 1)));
   }
   plant.grows[c.axis] = grows;
 }
 
-OrderSchedule orderSchedule(int order, const std::vector<Case>& cases) {
+OrderSchedule orderSchedule(int order, const std::vector<Case>& cases, int earliest) {
   OrderSchedule result;
   result.order = order;
   result.axes = cases.size();
   if (order == 0) return result;
-  const auto delay = steadyDelay(cases);
+  const auto delay = steadyDelay(cases, earliest);
   result.steady = delay.has_value();
   if (delay) result.delay = *delay;
   else setRate(result, cases);
@@ -193,6 +212,26 @@ bool stillGrows(const OrderSchedule& order, const Case& c) {
   if (c.forks) return false;
   if (order.steady) return c.segments + 0.5 > c.stages - order.delay;
   return !order.lasting || c.stages < *order.lasting;
+}
+
+/// Whether first axes bear branches of one segment at their very tips, and go on past others: such came with the segments they stand on.
+bool branchesComeAtOnce(std::span<const MeasuredPlant> plants) {
+  constexpr int kFewest = 3;
+  int atTips = 0, passed = 0;
+  for (const MeasuredPlant& plant : plants) {
+    const PlantStructure& structure = *plant.structure;
+    const Axis& first = structure.axes.front();
+    bool here = false;
+    for (const AxisId lateral : first.laterals) {
+      const Axis& branch = structure.at(lateral);
+      const bool atTip = branch.bearer == first.tip();
+      if (atTip && !isNewborn(branch)) return false;
+      here = here || atTip;
+      passed += atTip ? 0 : 1;
+    }
+    atTips += here ? 1 : 0;
+  }
+  return atTips >= kFewest && passed >= atTips;
 }
 
 /// Where half of five sympodial plants and more are of one age and none is older, clearly smaller ones are no younger: their first axes have ended without a fork. First
@@ -217,10 +256,12 @@ const OrderSchedule& Schedule::of(int order) const {
 
 Schedule scheduleOf(std::span<const MeasuredPlant> plants) {
   Schedule schedule;
+  schedule.branchesAtOnce = branchesComeAtOnce(plants);
+  const Insertions insertions = schedule.branchesAtOnce ? Insertions::AtOnce : Insertions::AStageLater;
   int orders = 0;
   for (const MeasuredPlant& plant : plants) {
     PlantSchedule own;
-    for (const Segment& s : plant.measurements->segments) own.now = std::max(own.now, static_cast<double>(s.level));
+    own.now = ageOf(plant, insertions);
     own.birth.assign(plant.measurements->segments.size(), 0);
     own.grows.assign(plant.structure->axes.size(), false);
     schedule.plants.push_back(std::move(own));
@@ -228,8 +269,8 @@ Schedule scheduleOf(std::span<const MeasuredPlant> plants) {
   }
   shareAge(schedule, plants);
   for (int order = 0; order < orders; ++order) {
-    const std::vector<Case> cases = casesOf(plants, schedule, order);
-    schedule.orders.push_back(orderSchedule(order, cases));
+    const std::vector<Case> cases = casesOf(plants, schedule, order, insertions);
+    schedule.orders.push_back(orderSchedule(order, cases, insertions == Insertions::AtOnce ? -1 : 0));
     for (const Case& c : cases)
       setBirths(schedule.plants[c.plant], plants[c.plant].structure->axes[c.axis], schedule.orders.back(), c, stillGrows(schedule.orders.back(), c));
   }

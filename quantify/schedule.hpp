@@ -22,7 +22,7 @@ namespace axil::quantify {
 struct OrderSchedule {
   int order = 0;
   bool steady = true;
-  int delay = 0;                  ///< stages between a bearer and the earliest start of what branches off it, beyond the usual one
+  int delay = 0;                  ///< stages between a bearer and the earliest start of what branches off it, beyond the usual one; -1: branches come together with their bearer
   double rate = 1;                ///< segments a stage while it grows
   std::optional<double> lasting;  ///< stages after which it has stopped; none: no end seen
   std::size_t axes = 0;           ///< that it was judged by
@@ -37,12 +37,13 @@ struct PlantSchedule {
 struct Schedule {
   std::vector<OrderSchedule> orders;   ///< from order 0
   std::vector<PlantSchedule> plants;
+  bool branchesAtOnce = false;         ///< a branch's first segment comes together with the one it stands on
 
   /// Of orders above the highest seen, the highest's.
   [[nodiscard]] const OrderSchedule& of(int order) const;
 };
 
-/// The schedule of plants of one kind, at least one.
+/// Branches come together with their bearers where the tips of three first axes and more bear some, all of a single segment, though first axes go on past others.
 [[nodiscard]] Schedule scheduleOf(std::span<const MeasuredPlant> plants);
 
 }  // namespace axil::quantify

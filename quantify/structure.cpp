@@ -12,7 +12,9 @@ namespace axil::quantify {
 namespace {
 
 constexpr double kForkRatio = 0.5;       // children whose angles are this alike fork
+constexpr double kLeaningRatio = 1.0 / 3;  // and where both lean clearly unlike bends, these
 constexpr double kClearlyMore = 10 * std::numbers::pi / 180;
+constexpr std::size_t kTellingBends = 5;
 constexpr double kNoSide = 0.5 * std::numbers::pi / 180;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -47,14 +49,6 @@ double likeness(const Measurements& m, const Segment& segment, const std::vector
   return second > 0 ? least / second : 1;
 }
 
-/// Whether stems that end with several children fork there.
-bool stemEndsFork(const Measurements& m) {
-  std::vector<double> ratios;
-  for (const Segment& s : m.segments)
-    if (s.children.size() > 1 && !sameStem(m, s)) ratios.push_back(likeness(m, s, byAngle(m, s)));
-  return !ratios.empty() && medianOf(std::move(ratios)) > kForkRatio;
-}
-
 /// The usual angle of what goes on along a stem, and of what leaves one that goes on.
 struct UsualAngles {
   std::optional<double> bend;
@@ -82,15 +76,14 @@ bool onlyChildGoesOn(const Measurements& m, const Segment& segment, const UsualA
 }
 
 /// What goes on from each segment along its axis.
-std::vector<std::optional<SegmentId>> continuations(const Measurements& m) {
-  const bool fork = stemEndsFork(m);
+std::vector<std::optional<SegmentId>> continuations(const Measurements& m, StemEnds ends) {
   const UsualAngles usual = usualAngles(m);
   std::vector<std::optional<SegmentId>> next(m.segments.size());
   for (std::size_t s = 0; s < m.segments.size(); ++s) {
     const Segment& segment = m.segments[s];
     next[s] = sameStem(m, segment);
     if (next[s] || segment.children.empty()) continue;
-    if (segment.children.size() == 1 ? onlyChildGoesOn(m, segment, usual) : !fork) next[s] = byAngle(m, segment).front();
+    if (segment.children.size() == 1 ? onlyChildGoesOn(m, segment, usual) : ends == StemEnds::GoOn) next[s] = byAngle(m, segment).front();
   }
   return next;
 }
@@ -111,7 +104,7 @@ double azimuthOf(PlantDirection stem, PlantDirection side, PlantDirection what) 
 
 class Builder {
  public:
-  explicit Builder(const Measurements& m) : m_(m), next_(continuations(m)) { out_.places.resize(m.segments.size()); }
+  Builder(const Measurements& m, StemEnds ends) : m_(m), next_(continuations(m, ends)) { out_.places.resize(m.segments.size()); }
 
   PlantStructure built() {
     for (std::size_t s = 0; s < m_.segments.size(); ++s)
@@ -209,7 +202,33 @@ class Builder {
 
 }  // namespace
 
-PlantStructure plantStructure(const Measurements& measurements) { return Builder(measurements).built(); }
+StemEnds stemEndsOf(std::span<const Measurements> plants) {
+  std::vector<double> ratios, leans, bends;
+  for (const Measurements& m : plants)
+    for (const Segment& s : m.segments) {
+      if (const auto same = sameStem(m, s)) bends.push_back(angleBetween(s.direction, m.at(*same).direction).radians());
+      else if (s.children.size() > 1) {
+        const std::vector<SegmentId> sorted = byAngle(m, s);
+        ratios.push_back(likeness(m, s, sorted));
+        leans.push_back(angleBetween(s.direction, m.at(sorted.front()).direction).radians());
+      }
+    }
+  if (ratios.empty()) return StemEnds::GoOn;
+  const double ratio = medianOf(std::move(ratios));
+  const bool leaning = bends.size() >= kTellingBends && medianOf(std::move(leans)) > 2 * medianOf(bends) + kClearlyMore;
+  return ratio > (leaning ? kLeaningRatio : kForkRatio) ? StemEnds::Fork : StemEnds::GoOn;
+}
+
+PlantStructure plantStructure(const Measurements& measurements, StemEnds ends) { return Builder(measurements, ends).built(); }
+
+PlantStructure plantStructure(const Measurements& measurements) { return plantStructure(measurements, stemEndsOf({&measurements, 1})); }
+
+std::vector<PlantStructure> plantStructures(std::span<const Measurements> plants) {
+  const StemEnds ends = stemEndsOf(plants);
+  std::vector<PlantStructure> structures;
+  for (const Measurements& m : plants) structures.push_back(plantStructure(m, ends));
+  return structures;
+}
 
 std::vector<double> internodesOf(const Measurements& measurements, const PlantStructure& structure, const Axis& axis) {
   std::vector<double> lengths;

@@ -3,8 +3,9 @@
 /// The architecture of a measured plant: which segments make one *axis*, and what order, rank and end each has.
 ///
 /// An axis goes on along the stem that was clicked (or grown) as one; where a stem ends, an only child goes on (unless it leans like
-/// the plant's branches and not like its bends), and of several the straightest, unless the plant forks there: on a plant whose stems end in children that lean alike (the median of least over
-/// second angle is above a half) none goes on, each child begins an axis of the next order, and the axis is a sympodial module.
+/// the plant's branches and not like its bends), and of several the straightest, unless the plant forks there: where stems end in children that lean alike (the median of least over
+/// second angle is above a half; above a third where even the least leans clearly unlike the stems' bends) none goes on, each child begins an axis of the next order, and the axis is
+/// a sympodial module. Plants of a kind are judged together.
 /// *Order* is 0 for the axis of the root segment and one more at each insertion. *Rank* counts segments from the axis' base, from 0;
 /// `fromTip` counts them from its tip, from 0. A *node* is a segment's tip that carries a leaf, an axis or a fork; an
 /// *internode* is the run of segments up to a node. A *growth unit* is one period of an axis' branching pattern (branching.hpp).
@@ -14,6 +15,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace axil::quantify {
@@ -60,10 +62,18 @@ struct PlantStructure {
   [[nodiscard]] const SegmentPlace& at(SegmentId id) const { return places[static_cast<std::size_t>(id.value)]; }
 };
 
-/// The structure of `measurements`, which must have a segment. Azimuths are angles around an axis from a side that follows the axis' bends
+/// Where stems end in several children: the straightest goes on, or none does.
+enum class StemEnds { GoOn, Fork };
+/// What the stems' ends of all plants together tell; GoOn where none ends so.
+[[nodiscard]] StemEnds stemEndsOf(std::span<const Measurements> plants);
+
+/// The structure of `measurements`, which must have a segment; stem ends by what this plant alone tells where they are not given. Azimuths are angles around an axis from a side that follows the axis' bends
 /// without twisting, counted as rotu is; between two nodes of one axis they differ by the divergence, whatever wrote the plant. They are NaN
 /// for what leaves within half a degree of straight on or straight back.
+[[nodiscard]] PlantStructure plantStructure(const Measurements& measurements, StemEnds ends);
 [[nodiscard]] PlantStructure plantStructure(const Measurements& measurements);
+/// Of plants of one kind, judged together.
+[[nodiscard]] std::vector<PlantStructure> plantStructures(std::span<const Measurements> plants);
 
 /// Lengths of an axis' internodes from base to tip: segments up to and with the one whose tip is a node; what follows the last node counts as one.
 [[nodiscard]] std::vector<double> internodesOf(const Measurements& measurements, const PlantStructure& structure, const Axis& axis);

@@ -71,6 +71,25 @@ TEST(KnownGenerators, BranchesThatBeginLateAreSeenToBeLate) {
   EXPECT_TRUE(s.schedule.of(1).steady);
 }
 
+TEST(KnownGenerators, ShootsThatComeTogetherWithTheirBearersAreNoForksAndNoStageOfTheirOwn) {
+  const auto s = statisticsOf("w = A(0.05); A(l) -> 0.6: S(1, l) [rotr(0.8)rotu(random(0, 6.28))S(1, l*0.4)] A(l*0.96) | 0.4: S(1, l) A(l*0.96) ;", 13, 10);
+  EXPECT_TRUE(s.schedule.branchesAtOnce);
+  for (const auto& plant : s.schedule.plants) {
+    EXPECT_EQ(plant.now, 12);
+    EXPECT_TRUE(plant.grows.front());
+  }
+  for (const auto& fate : s.fates.front().fates) EXPECT_TRUE(fate.goesOn);
+}
+
+TEST(KnownGenerators, StemsThatBranchBelowOnlyAreNotTakenForLateBranches) {
+  const auto s = statisticsOf("w = A(0, 0);"
+                              "A(0, i) : i < 7 -> 0.8: S(1, 0.1) [rotr(0.9)rotu(2.4*i)A(1, 0)] A(0, i+1) | 0.2: S(1, 0.1) A(0, i+1) ;"
+                              "A(0, i) -> S(1, 0.1) A(0, i+1) ;"
+                              "A(1, i) -> S(1, 0.08) A(1, i+1) ;", 12, 10);
+  EXPECT_EQ(s.patterns.front().delay, 0);
+  EXPECT_EQ(s.patterns.front().habit, quantify::BranchingHabit::Basitonic);
+}
+
 TEST(KnownGenerators, AHundredPlantsGiveProbabilitiesWithinAHundredth) {
   const auto s = statisticsOf("w = A(0);"
                               "A(0) -> 0.3: S(1, 0.1) [rotr(0.8)rotu(1)A(1)] A(0) | 0.7: S(1, 0.1) A(0) ;"

@@ -29,7 +29,8 @@ struct Habit {
   const char* name = "";
   int stages = 12;
   double length = 0.08;
-  double along = 0.96;         ///< a segment over the one below
+  double along = 0.96;         ///< a segment over the one below; at the base, where it changes
+  double change = 1;           ///< of that, from one rank to the next
   double noise = 0.1;          ///< deviation of the logarithm of lengths
   double divergence_deg = 137.5;
   int orders = 3;
@@ -132,7 +133,7 @@ class Sequence {
         buds_.push_back({stem, apex.node, apex.order + 1, frame, (habit_.module > 0 ? apex.length : length) * sprout.ratio, stage_ + 1 + habit_.delay});
       }
     apex.around += habit_.divergence_deg;
-    apex.length *= habit_.along;
+    apex.length *= habit_.along * std::pow(habit_.change, rank);
     apex.alive = !ends && !forks;
   }
 
@@ -160,6 +161,7 @@ inline std::vector<Habit> knownHabits() {
           {.name = "basitonic", .ending = 0.08, .leaves = 1, .branching = [](int, int rank) { return std::max(0.0, 1 - rank / 10.0); }},
           {.name = "axes of five and three segments", .ending = 0, .branching = [](int, int) { return 0.7; }, .most = [](int order) { return order == 0 ? 1000 : order == 1 ? 5 : 3; }},
           {.name = "branches that rest", .stages = 14, .ending = 0, .rate = [](int order) { return order == 0 ? 1.0 : order == 1 ? 0.6 : 0.4; }},
+          {.name = "lengths that swell and dwindle", .stages = 13, .length = 0.03, .along = 1.35, .change = 0.945},
           {.name = "late branches", .stages = 13, .noise = 0.15, .ending = 0.03, .delay = 2},
           {.name = "every third node", .stages = 14, .along = 0.98, .divergence_deg = 120, .ending = 0.06, .leaves = 1, .branching = [](int, int rank) { return rank % 3 == 2 ? 1.0 : 0.0; }}};
 }

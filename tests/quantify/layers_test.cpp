@@ -2,6 +2,7 @@
 
 #include "known_growth.hpp"
 #include "quantify/backtest.hpp"
+#include "quantify/estimate.hpp"
 #include "quantify/outlook.hpp"
 
 #include <algorithm>
@@ -47,6 +48,29 @@ TEST(Layers, EachPlantCountsOnceWherePlantsDiffer) {
   const LayeredStatistics s = statisticsOf(plants);
   EXPECT_NEAR(s.of(Quantity::Insertion).order(0)->estimate.own / kDegree, 45, 2);
   EXPECT_FALSE(s.warnings.empty());
+}
+
+TEST(Layers, SharesAreTrueWhereAnEndLeavesAPlantWithFewNodes) {
+  // Each plant makes nodes until one ends it, or a dozen: those that ended soon have few. True share: one in ten.
+  const std::uint64_t seed = 65;
+  std::cout << "seed " << seed << "\n";
+  Rng rng(seed);
+  std::vector<Sample> samples;
+  for (std::size_t plant = 0; plant < 1000; ++plant)
+    for (int node = 0; node < 12; ++node) {
+      samples.push_back({plant, 0, node, rng.uniform() < 0.1 ? 1.0 : 0.0});
+      if (samples.back().value > 0) break;
+    }
+  const Estimate share = estimateOf(samples, SampleKind::Share);
+  EXPECT_NEAR(share.own, 0.1, 0.01);  // three standard errors
+  EXPECT_EQ(share.between, 0);
+}
+
+TEST(Layers, SharesOfPlantsThatDifferCountEachPlantAlike) {
+  std::vector<Sample> samples;
+  for (int i = 0; i < 1000; ++i) samples.push_back({0, 0, i, i % 10 == 0 ? 1.0 : 0.0});
+  for (int i = 0; i < 100; ++i) samples.push_back({1, 0, i, i % 10 < 8 ? 1.0 : 0.0});
+  EXPECT_NEAR(estimateOf(samples, SampleKind::Share).own, 0.45, 0.03);  // of all nodes together it is 0.16
 }
 
 TEST(Layers, OneSpeciesIsNotCalledTwo) {

@@ -29,6 +29,11 @@ Skeleton trunkWithBranches() {
   return plant;
 }
 
+BranchingPattern patternOf(const Measurements& m, const PlantStructure& s) {
+  const std::vector<MeasuredPlant> plants{{&m, &s}};
+  return branchingPatternOf(plants, scheduleOf(plants), 0);
+}
+
 TEST(Structure, OrdersRanksAndNodes) {
   const Measurements m = measuredOf(trunkWithBranches());
   const PlantStructure s = plantStructure(m);
@@ -60,6 +65,30 @@ TEST(Structure, StemsThatEndInLikeChildrenFork) {
   ASSERT_EQ(s.axes.size(), 3u);
   EXPECT_TRUE(s.axes[0].forks);
   EXPECT_EQ(s.axes[2].order, 1);
+}
+
+/// A straight stem that ends in two arms, so far from straight on.
+Measurements forkOf(double one_deg, double other_deg) {
+  const auto arm = [](double degrees) { return std::vector<glm::dvec3>{{std::sin(degrees * std::numbers::pi / 180), 6 + std::cos(degrees * std::numbers::pi / 180), 0}}; };
+  Skeleton plant = test::chainThrough(std::vector<glm::dvec3>{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 3, 0}, {0, 4, 0}, {0, 5, 0}, {0, 6, 0}});
+  test::addStem(plant, StemId{1}, NodeId{7}, arm(one_deg));
+  test::addStem(plant, StemId{1}, NodeId{7}, arm(-other_deg));
+  return measuredOf(plant);
+}
+
+TEST(Structure, ForksOfAKindAreJudgedTogether) {
+  // Alone the second one's least angle is below a half of the other; among its like it forks as they do.
+  const std::vector<Measurements> plants{forkOf(5, 9), forkOf(5, 11), forkOf(5, 8), forkOf(6, 9)};
+  EXPECT_EQ(plantStructure(plants[1]).branching, Branching::Monopodial);
+  for (const PlantStructure& s : plantStructures(plants)) {
+    EXPECT_EQ(s.branching, Branching::Sympodial);
+    EXPECT_EQ(s.axes.size(), 3u);
+  }
+}
+
+TEST(Structure, ArmsThatBothLeanUnlikeAStraightStemAreAFork) {
+  EXPECT_EQ(plantStructure(forkOf(30, 70)).axes.size(), 3u);
+  EXPECT_EQ(plantStructure(forkOf(8, 70)).axes.size(), 2u);
 }
 
 TEST(Structure, AStemClickedInTwoPiecesIsOneAxis) {
@@ -126,7 +155,7 @@ TEST(BranchingPattern, EveryThirdNode) {
   for (int node = 3; node <= 15; node += 3) test::addStem(plant, StemId{1}, NodeId{node}, std::vector<glm::dvec3>{{1, node, 0}});
   const Measurements m = measuredOf(plant);
   const PlantStructure s = plantStructure(m);
-  const BranchingPattern p = branchingPatternOf(std::vector<MeasuredPlant>{{&m, &s}}, 0);
+  const BranchingPattern p = patternOf(m, s);
   EXPECT_EQ(p.habit, BranchingHabit::EveryKth);
   EXPECT_EQ(p.period, 3);
   EXPECT_EQ(p.growthUnit, 3);
@@ -143,7 +172,7 @@ TEST(BranchingPattern, BranchesAtTheTopAreAcrotonicAndAtTheBaseBasitonic) {
     }
     const Measurements m = measuredOf(plant);
     const PlantStructure s = plantStructure(m);
-    EXPECT_EQ(branchingPatternOf(std::vector<MeasuredPlant>{{&m, &s}}, 0).habit, top ? BranchingHabit::Acrotonic : BranchingHabit::Basitonic);
+    EXPECT_EQ(patternOf(m, s).habit, top ? BranchingHabit::Acrotonic : BranchingHabit::Basitonic);
   }
 }
 
