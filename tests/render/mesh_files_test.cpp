@@ -110,5 +110,23 @@ TEST(MeshFiles, AreTheSameBytesTwice) {
   EXPECT_EQ(plyBytes(meshOfShrub()), plyBytes(meshOfShrub()));
 }
 
+TEST(MeshFiles, WrittenStraightIntoFilesTheyAreTheSameBytes) {
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "axil_mesh_files";
+  std::filesystem::remove_all(folder);
+  const PlantMesh mesh = meshOfShrub();
+  for (const ModelStorage storage : {ModelStorage::Shared, ModelStorage::Merged}) {
+    ASSERT_TRUE(writeGlb(mesh, folder / "a.glb", {.storage = storage}));
+    EXPECT_EQ(*readFile(folder / "a.glb"), *glbBytes(mesh, {.storage = storage}));
+  }
+  ASSERT_TRUE(writeObj(mesh, folder / "my plant.obj"));
+  const auto files = objAndMtl(mesh, "my_plant.mtl");
+  EXPECT_EQ(*readFile(folder / "my plant.obj"), files->obj);
+  EXPECT_EQ(*readFile(folder / "my_plant.mtl"), files->mtl);
+  EXPECT_FALSE(writeGlb(mesh, folder / "a.glb" / "b.glb"));
+  EXPECT_FALSE(writeGlb(mesh, folder / "c.glb", {.metresPerUnit = -1}));
+  EXPECT_FALSE(std::filesystem::exists(folder / "c.glb"));
+  std::filesystem::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace axil::render
