@@ -27,20 +27,36 @@ void part(const Panel& panel, const char* name, Area area, Ground ground, float 
   ImGui::End();
 }
 
-void topBar(const Panel& panel, Area area) {
-  UiState& state = panel.state;
+/// The program's and the project's name as far as there is room.
+void names(const Panel& panel, Area area) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float middle = area.y + area.height / 2, line = ImGui::GetFontSize();
+  const float middle = area.y + area.height / 2, right = area.x + area.width;
   drawIcon(list, Icon::Grow, {area.x + panel.px(24), middle}, panel.px(22), panel.palette.accent);
+  float x = area.x + panel.px(46);
+  list.PushClipRect({area.x, area.y}, {right, area.y + area.height}, true);
   ImGui::PushFont(font(Face::Heading));
-  list.AddText({area.x + panel.px(46), middle - ImGui::GetFontSize() / 2}, panel.palette.text, "Axil Studio");
   const float title = ImGui::CalcTextSize("Axil Studio").x;
+  if (x + title < right) {
+    list.AddText({x, middle - ImGui::GetFontSize() / 2}, panel.palette.text, "Axil Studio");
+    x += title + panel.px(18);
+  }
   ImGui::PopFont();
   const std::string name = panel.project.name + (panel.session.isDirty() ? "  •" : "");
-  list.AddText({area.x + panel.px(64) + title, middle - line / 2}, panel.palette.quiet, name.c_str());
+  list.AddText({x, middle - ImGui::GetFontSize() / 2}, panel.palette.quiet, name.c_str());
+  list.PopClipRect();
+}
+
+void topBar(const Panel& panel, Area area) {
+  UiState& state = panel.state;
+  static constexpr std::array<const char*, 5> kSteps = {"menu_open", "save", "undo", "redo", "history"};
+  float steps = panel.px(30);
+  for (const char* key : kSteps) steps += ImGui::CalcTextSize(panel.t(key)).x + 2 * ImGui::GetStyle().FramePadding.x;
+  const float middle = area.y + area.height / 2, right = area.x + area.width;
+  const float begin = std::clamp(right - panel.px(296) - steps, panel.px(40), panel.px(330));
+  names(panel, {area.x, area.y, begin - panel.px(10), area.height});
 
   const float height = ImGui::GetFrameHeight();
-  ImGui::SetCursorScreenPos({area.x + panel.px(330), middle - height / 2});
+  ImGui::SetCursorScreenPos({area.x + begin, middle - height / 2});
   if (button(panel, "menu_open", Emphasis::Quiet)) state.dialog = {DialogKind::Open, panel.session.openProject().folder, "", ""};
   ImGui::SameLine(0, panel.px(2));
   if (button(panel, "save", Emphasis::Quiet)) state.wishes.push_back(WishSave{});
@@ -56,7 +72,6 @@ void topBar(const Panel& panel, Area area) {
   if (button(panel, "history", Emphasis::Quiet)) state.history = !state.history;
 
   static constexpr std::array<const char*, 3> kLanguages = {"English", "繁體中文", "简体中文"};
-  const float right = area.x + area.width;
   ImGui::SetCursorScreenPos({right - panel.px(296), middle - height / 2});
   ImGui::SetNextItemWidth(panel.px(116));
   if (ImGui::BeginCombo("##language", kLanguages[static_cast<std::size_t>(state.language)])) {
@@ -185,7 +200,9 @@ std::vector<Step> shell(const Panel& panel) {
   std::vector<Step> steps;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   Layout& layout = panel.state.preferences.layout;
-  const float top = panel.px(46), status = panel.px(30), below = panel.px(72), left = panel.px(layout.left), right = panel.px(layout.right), between = panel.px(5);
+  const float top = panel.px(46), status = panel.px(30), below = panel.px(72), between = panel.px(5);
+  // Where everything is large and the window small, photos keep their room.
+  const float left = std::min(panel.px(layout.left), 0.3f * screen.x), right = std::min(panel.px(layout.right), 0.24f * screen.x);
   const Area barArea{0, 0, screen.x, top};
   const Area statusArea{0, screen.y - status, screen.x, status};
   const Area timeArea{left + between, screen.y - status - below, screen.x - left - between, below};
