@@ -84,6 +84,15 @@ std::string filled(std::string_view pattern, std::initializer_list<std::pair<std
     const std::string place = "{" + std::string(name) + "}";
     for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place, at + value.size())) text.replace(at, place.size(), value);
   }
+  for (const auto& [name, value] : values) {
+    const std::string choice = "{" + std::string(name) + "=1:";
+    for (std::size_t at = text.find(choice); at != std::string::npos; at = text.find(choice, at)) {
+      const std::size_t bar = text.find('|', at), end = text.find('}', at);
+      if (end == std::string::npos || bar > end) break;
+      const std::size_t one = at + choice.size();
+      text.replace(at, end + 1 - at, value == "1" ? text.substr(one, bar - one) : text.substr(bar + 1, end - bar - 1));
+    }
+  }
   return text;
 }
 

@@ -42,7 +42,7 @@ class Texts {
   std::vector<Message> messages_;
 };
 
-/// `pattern` with each {name} replaced.
+/// `pattern` with each {name} replaced; {name=1:this|that} is `this` where the value is 1, else `that`.
 [[nodiscard]] std::string filled(std::string_view pattern, std::initializer_list<std::pair<std::string_view, std::string>> values);
 
 }  // namespace axil::ui

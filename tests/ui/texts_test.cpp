@@ -37,6 +37,8 @@ TEST(Texts, EveryLanguageSaysSomethingAndKeepsThePlacesToFillIn) {
     for (const Language language : {Language::English, Language::TraditionalChinese, Language::SimplifiedChinese})
       EXPECT_NE(std::string((*texts)("click_branch", language)).find(place), std::string::npos) << place;
   EXPECT_EQ(filled(english, {{"stem", "7"}, {"node", "3"}}).find('{'), std::string::npos);
+  EXPECT_EQ(filled("{n} {n=1:stem|stems}", {{"n", "1"}}), "1 stem");
+  EXPECT_EQ(filled("{n} {n=1:stem|stems}", {{"n", "21"}}), "21 stems");
   EXPECT_STREQ((*texts)("no_such_key", Language::English), "no_such_key");
 }
 
