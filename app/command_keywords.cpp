@@ -21,11 +21,18 @@ struct KeywordsCommand {
 
 constexpr std::uintmax_t kMaximumTextBytes = keywords::descriptionLimitBytes;
 
+Failure tooLong(const std::string& file) {
+  return fail(ErrorCode::LimitReached, file + " has more than " + std::to_string(kMaximumTextBytes / 1'000'000) + " MB, the limit for a description; cut it into parts, for example with `split -C 10M`");
+}
+
 Result<std::string> textOf(const std::string& file) {
-  if (file != "-") return readFile(file, kMaximumTextBytes);
+  if (file != "-") {
+    auto text = readFile(file, kMaximumTextBytes);
+    return !text && text.error().code == ErrorCode::LimitReached ? Result<std::string>(tooLong(file)) : text;
+  }
   std::string text;
   for (char c; text.size() <= kMaximumTextBytes && std::cin.get(c);) text.push_back(c);
-  if (text.size() > kMaximumTextBytes) return fail(ErrorCode::LimitReached, "the description has more than " + std::to_string(kMaximumTextBytes / 1'000'000) + " MB, the limit; cut it into parts, for example with split");
+  if (text.size() > kMaximumTextBytes) return tooLong("standard input");
   return text;
 }
 

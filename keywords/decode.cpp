@@ -122,7 +122,7 @@ std::optional<DecodedText> decoded(std::string_view bytes) {
 
 Result<DecodedText> decodeDescription(std::string_view bytes) {
   if (bytes.size() > descriptionLimitBytes)
-    return fail(ErrorCode::LimitReached, "the description has " + std::to_string(bytes.size() / 1'000'000) + " MB; the limit is " + std::to_string(descriptionLimitBytes / 1'000'000) + " MB, so cut it into parts, for example with split");
+    return fail(ErrorCode::LimitReached, "the description has " + std::to_string(bytes.size() / 1'000'000) + " MB; the limit is " + std::to_string(descriptionLimitBytes / 1'000'000) + " MB, so cut it into parts, for example with `split -C 10M`");
   std::optional<DecodedText> text = decoded(bytes);
   if (!text || text->utf8.find('\0') != std::string::npos || !looksLikeText(text->utf8))
     return fail(ErrorCode::BadInput, "the description is no text; it must be UTF-8, UTF-16 with a byte-order mark, Big5 or GB18030");

@@ -22,7 +22,7 @@
 namespace axil::keywords {
 
 /// A description of this length that is dense with statements takes about a gigabyte with its traits; longer ones are refused.
-constexpr std::size_t descriptionLimitBytes = 32'000'000;
+constexpr std::size_t descriptionLimitBytes = 20'000'000;
 
 /// A file's bytes as text; `encoding` says what they were: "UTF-8", "UTF-16", "Big5", "GB18030", or several joined with " and "
 /// where lines differ. Fails with BadInput on what is no text or has no words, and with LimitReached above

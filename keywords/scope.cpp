@@ -96,6 +96,7 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   while (before > 0 && isAny(before, {"lower", "upper", "young", "basal", "middle", "old", "lateral", "leaf", "short", "long", "spur", "juvenile", "fertile", "sterile", "flowering", "vegetative", "new",
                                       "very", "leafless", "slender", "stout", "current", "previous", "year", "second", "adult", "subtending", "ultimate", "leafy", "terminal", "main", "mature", "same", "opposite"}))
     --before;
+  if (before > 0 && isAny(before, {"the", "its", "their"})) --before;  // "in the axils of the upper leaves"
   if (isHan(i) && isAny(before, {"每", "各"})) return scope_.organInSentence;
   const std::size_t behind = found_[i].end;  // 莖下部者3-4枚輪生: which of the leaves
   if (isHan(i) && isAny(behind, {"上", "下", "中", "基", "頂", "顶"}) && is(behind + 1, "部") && is(behind + 2, "者")) return scope_.organInSentence;
@@ -113,7 +114,7 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   if (isAny(before, {"與", "与"}) && isAny(found_[i].end, {"呈", "成", "夾", "夹", "間", "间", "等", "對", "对", "同"})) return true;
   if (isAny(before, {"than", "to", "與", "与", "和", "短", "比", "較", "较", "似", "先", "exceeding", "於", "于", "near", "towards", "from", "among", "between", "above", "below", "on", "after", "before", "per", "until", "subtending", "opposite"}) && !isMeasuredItself) {
     const bool afterTo = is(before, "to") && before > 0 && nounAt(i)->name == "plant" && found_[before - 1];  // "shrubs to small trees"
-    return scope_.organInSentence && !afterTo && !(isAny(before, {"和", "與", "与"}) && before > 0 && nounAt(before - 1) != nullptr);
+    return scope_.organInSentence && !afterTo && !(isAny(before, {"和", "與", "与"}) && before > 0 && (nounAt(before - 1) != nullptr || scope_.organEnd == before));
   }
   if (!scope_.organInSentence || isMeasuredItself) return false;
   if (before > 0 && is(before, "of") && isAny(before - 1, {"pairs", "pair", "whorls", "clusters", "fascicles", "consisting", "composed"})) return false;
@@ -284,7 +285,9 @@ void ParagraphReader::notePiece(std::size_t i, const Concept& piece) {
   scope_.place = scope_.partner = nullptr;
   scope_.organEnd = found_[i].end;
   // 蒴果具三翅，長2公分: behind the comma the fruit is measured.
-  const bool given = i > 0 && (tokens_[i - 1].kind == TokenKind::Number || numberAt(tokens_, i - 1)) && isHan(i);
+  const bool counted = i > 0 && (tokens_[i - 1].kind == TokenKind::Number || numberAt(tokens_, i - 1).has_value());
+  const bool withNumber = !isHan(i) && counted && ((i > 1 && is(i - 2, "with")) || (i > 3 && is(i - 3, "-") && is(i - 5, "with")) || (i > 3 && is(i - 4, "with")));
+  const bool given = counted && (isHan(i) || withNumber);
   scope_.container = given ? owner : nullptr;
   scope_.stranger = false;
   scope_.organInSentence = scope_.subjectInClause = scope_.subjectInSegment = true;
@@ -312,8 +315,9 @@ void ParagraphReader::notePlace(std::size_t i, const Concept& place) {
   }
   const bool namesLeaf = isHan(i) && isAny(i, {"葉", "叶"});
   if (namesLeaf && scope_.organ->name != "leaflet") scope_.organ = &organNamed("leaf");
-  // "lobes with blunt teeth, base cordate": behind a comma the blade again, not a tooth.
-  if (scope_.piece != nullptr && scope_.piece->name == "tooth" && i > 0 && tokens_[i - 1].kind == TokenKind::Sign) scope_.piece = nullptr;
+  // "lobes with blunt teeth, base cordate", "lobes acuminate, margins dentate": behind a comma the blade again.
+  const bool ofBladeAgain = scope_.piece != nullptr && (scope_.piece->name == "tooth" || (scope_.piece->name == "lobe" && place.name == "margin" && isAny(i, {"margins", "margin"}) && scope_.organ != nullptr && scope_.organ->name == "leaf"));
+  if (ofBladeAgain && i > 0 && tokens_[i - 1].kind == TokenKind::Sign) scope_.piece = nullptr;
   scope_.stranger = false;
   scope_.organInSentence = scope_.subjectInSegment = true;
   scope_.place = &place;

@@ -332,7 +332,8 @@ void ParagraphReader::readTerm(std::size_t i) {
   weighTerm(i, *meaning, now.linked);
   now.kept = !now.negated;
   const bool ofTooth = attributive == nullptr && scope_.piece != nullptr && scope_.piece->name == "tooth" && meaning->category->property == "margin";  // 齒尖內彎，有時呈波狀
-  const Subject subject{organ, attributive != nullptr ? ahead.piece : ofTooth ? nullptr : scope_.piece, attributive != nullptr, place, named != nullptr};
+  const bool ofWhole = attributive == nullptr && scope_.piece != nullptr && scope_.container == scope_.organ && !scope_.subjectInSegment && !isHan(i) && meaning->category->property == "margin";  // "with 3-4 lobes per side, doubly serrate"
+  const Subject subject{organ, attributive != nullptr ? ahead.piece : ofTooth || ofWhole ? nullptr : scope_.piece, attributive != nullptr, place, named != nullptr};
   if (now.kept && continuesCompound(i, *meaning->category)) extendCompound(f, meaning->entry->name);
   else keepTerm(i, *meaning, subject, now);
   last_ = now;
