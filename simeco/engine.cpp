@@ -165,6 +165,7 @@ Result<std::shared_ptr<Engine>> Engine::create(std::shared_ptr<const Program> pr
   s.shared.deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
   for (int i = 0; i < std::max(1, s.options.threads); ++i) s.machines.emplace_back(s.shared);
   s.random = Rng(s.options.seed);
+  if (const auto own = s.program->main().seed) s.random = s.random.split(*own);
   s.needs = needsOf(*s.program);
   s.walking = s.program->systems.size() > 1;
   s.needs.brackets = s.needs.brackets || s.walking;

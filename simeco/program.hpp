@@ -153,6 +153,7 @@ struct System {
   RuleTable interaction;
   std::array<bool, 256> ignored{};
   bool ring = false;
+  std::optional<std::uint64_t> seed;  ///< the file's own; its draws are other ones with another
   bool stochastic = false;          ///< the applicable rules share their weights; else the first one fires
   std::optional<Term> derivationLength;
   Code start, startEach, endEach, end;

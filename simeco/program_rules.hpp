@@ -239,7 +239,8 @@ class Compiler : protected StatementCompiler {
   void compileSystem(const RuleSet& rules, System& system) {
     system.label = rules.label;
     system.ring = rules.ring;
-    system.stochastic = rules.seed.has_value();
+    system.seed = rules.seed;
+    system.stochastic = rules.seed.has_value() && program_.language == Language::LSystem;  // in SimEco the first rule that fits fires
     system.externals = rules.externals;
     for (const Block* b : {&rules.start, &rules.startEach, &rules.endEach, &rules.end}) assignedNames(*b, system.globals);
     for (const std::string& external : rules.externals)

@@ -3,11 +3,13 @@
 #include "base/files.hpp"
 #include "simeco/engine.hpp"
 #include "simeco/language.hpp"
+#include "simeco/lsystem_language.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace axil::simeco {
 namespace {
@@ -171,6 +173,32 @@ TEST(Derive, AStepCountBeyondTheFixedPointIsKept) {
   EXPECT_EQ(derivation.modulesPerStep, (std::vector<std::size_t>(6, 1)));
   EXPECT_TRUE(derivation.settled);
   EXPECT_FALSE(derive(rules("w = S(0); S(0) -> S(1) ;"), {.steps = -1}));
+}
+
+TEST(Seeds, TheFilesOwnSeedAndTheCallersBothCount) {
+  std::set<std::string> strings;
+  for (const int own : {1, 2, 3})
+    for (const std::uint64_t seed : {1u, 2u}) {
+      const Parsed parsed = parseLSystem("Lsystem: 1\nseed: " + std::to_string(own) + "\nderivation length: 30\nAxiom: A\nA --> AB\nA --> BA\nendlsystem\n");
+      const auto derived = derive(parsed.grammar, {.seed = seed});
+      ASSERT_TRUE(derived) << derived.error().message;
+      strings.insert(toText(derived->string));
+    }
+  EXPECT_EQ(strings.size(), 6u);
+}
+
+TEST(Seeds, InSimEcoASeedOfTheRulesLeavesTheFirstRuleThatFits) {
+  std::set<std::string> chosen;
+  for (const int own : {1, 2, 3, 4}) {
+    const std::string head = "EcoSystem 1.1 \"e\" { Plant \"p\" { Stem { Stage 1 {} Stage 2 {} } Grow { seed = " + std::to_string(own) + "; w = A(0); ";
+    const auto ordered = derive(parseSimeco(head + "A(i) : i < 3 -> S(1) A(i+1) ; A(i) -> S(2) ; } } }").grammar);
+    ASSERT_TRUE(ordered) << ordered.error().message;
+    EXPECT_EQ(toText(ordered->string), "S(1)S(1)S(1)S(2)");
+    const auto drawn = derive(parseSimeco(head + "A(i) : i < 20 -> 1: S(1) A(i+1) | 1: S(2) A(i+1) ; A(i) -> S(2) ; } } }").grammar);
+    ASSERT_TRUE(drawn) << drawn.error().message;
+    chosen.insert(toText(drawn->string));
+  }
+  EXPECT_EQ(chosen.size(), 4u);
 }
 
 }  // namespace
