@@ -19,7 +19,7 @@ std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 fs::path asideOf(const fs::path& path) { return path.string() + ".part" + std::to_string(::getpid()); }
 
 Failure unwritable(const fs::path& path, const std::string& why) {
-  return fail(ErrorCode::Unwritable, "cannot write " + quoted(path) + ": " + why + "; choose a folder you may write to");
+  return fail(ErrorCode::Unwritable, "cannot write " + quoted(path) + ": " + why + "; make room there or choose a folder you may write to");
 }
 
 Result<void> makeFolder(const fs::path& folder) {
