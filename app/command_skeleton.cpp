@@ -47,7 +47,7 @@ void say(const document::Measured& clicks, const skeleton3d::Skeleton& skeleton)
     std::fprintf(stderr, "axil: suspect click: node %d in view %s, %.1f px off, wrong with a chance of %.0f %%\n", suspect.node.value, suspect.view.c_str(), suspect.off_px,
                  100 * suspect.chance);
   for (const std::string& note : clicks.notes) std::fprintf(stderr, "axil: note: %s\n", note.c_str());
-  for (const std::string& line : document::waitingLines(skeleton)) std::fprintf(stderr, "axil: note: %s\n", line.c_str());
+  for (const std::string& line : document::waitingLines(skeleton, clicks.suspects)) std::fprintf(stderr, "axil: note: %s\n", line.c_str());
 }
 
 int run(const SkeletonCommand& command) {

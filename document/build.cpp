@@ -232,7 +232,7 @@ Result<BuildReport> build(const OpenProject& open, const fs::path& folder, const
   if (auto w = writeLayers(output, *measurements); !w) return w.failure();
   const auto said = traitsOf(open.project);
   if (!said) return said.failure();
-  for (std::string& line : waitingLines(*skeleton)) output.notes.push_back(std::move(line));
+  for (std::string& line : waitingLines(*skeleton, clicks->suspects)) output.notes.push_back(std::move(line));
   for (const auto& contradiction : quantify::contradictionsWith(*said, *measurements)) output.notes.push_back(contradiction.line());
   options.chain.watch.report("writing the grammars", 0.1);
   const auto grammars = writeGrammars(output, open.project, *measurements, options.chain);

@@ -114,12 +114,13 @@ void takeSnapping(skeleton3d::Snapping snapping, Measured& result) {
   result.snapped = std::move(snapping.nodes);
 }
 
-/// Clicks alone. Where cameras are known, what is wrong with them or the clicks is for solving to say, node by node.
+/// Clicks alone. Where cameras are known, what is wrong with single clicks is for solving to say, node by node; views that are
+/// read the wrong way are not.
 Result<void> measureClicks(const OpenProject& open, const std::map<std::string, double>& focals, Measured& result) {
   auto cameras = skeleton3d::estimateCameras(result.views, hintsOf(open, focals), result.nodes, {.stems = stemsOf(open.project)});
   if (cameras)
     takeCameras(*std::move(cameras), result);
-  else if (anyUnknown(result.views))
+  else if (anyUnknown(result.views) || cameras.error().code == ErrorCode::NoAnswer)
     return cameras.failure();
   return {};
 }

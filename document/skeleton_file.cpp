@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <numeric>
+
 namespace axil::document {
 
 using Json = nlohmann::ordered_json;
@@ -50,12 +52,18 @@ std::string skeletonText(const skeleton3d::Skeleton& skeleton, std::span<const s
   return jsonLines(json);
 }
 
-std::vector<std::string> waitingLines(const skeleton3d::Skeleton& skeleton) {
+std::vector<std::string> waitingLines(const skeleton3d::Skeleton& skeleton, std::span<const skeleton3d::SuspectClick> suspects) {
   std::vector<std::string> lines;
   for (const auto& node : skeleton.incomplete) {
-    std::string views;
-    for (const std::string& view : node.views) views += (views.empty() ? "" : ", ") + view;
-    lines.push_back("node " + std::to_string(node.id.value) + " waits: " + (views.empty() ? "it is not clicked" : "its clicks (" + views + ") give it no place") + "; click it in another view");
+    const auto listed = [](std::string list, const std::string& view) { return list.empty() ? view : std::move(list) + ", " + view; };
+    const std::string views = std::accumulate(node.views.begin(), node.views.end(), std::string(), listed);
+    std::string doubted;
+    for (const auto& click : suspects)
+      if (click.node == node.id) doubted = listed(std::move(doubted), click.view);
+    const std::string why = !views.empty()     ? "its clicks (" + views + ") give it no place; click it in another view"
+                            : doubted.empty() ? "it is not clicked; click it in two views"
+                                              : "its clicks (" + doubted + ") contradict one another, so none is trusted; correct them, or click it in another view";
+    lines.push_back("node " + std::to_string(node.id.value) + " waits: " + why);
   }
   return lines;
 }

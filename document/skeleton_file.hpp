@@ -15,7 +15,7 @@ namespace axil::document {
 /// were named as wrong and left out.
 [[nodiscard]] std::string skeletonText(const skeleton3d::Skeleton& skeleton, std::span<const skeleton3d::SuspectClick> suspects = {});
 
-/// A sentence for each node that has no place yet: where it is clicked and what to do.
-[[nodiscard]] std::vector<std::string> waitingLines(const skeleton3d::Skeleton& skeleton);
+/// A sentence for each node that has no place yet: where it is clicked, or that `suspects` left it no click, and what to do.
+[[nodiscard]] std::vector<std::string> waitingLines(const skeleton3d::Skeleton& skeleton, std::span<const skeleton3d::SuspectClick> suspects);
 
 }  // namespace axil::document

@@ -161,6 +161,9 @@ Result<EstimatedCameras> judged(std::span<const View> views, std::span<const Cli
   std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(shared), [](const ClickedNode& node) { return node.clicks.size() > 1; });
   const double click_px = clickOr(options, detail::robustScatterOf(views, shared).click_px);
   known.suspects = detail::suspectsAmong(shared, known.views, click_px, options.stems);
+  constexpr double kFarOff_px = 6;  // no one clicks so badly
+  if (click_px > kFarOff_px || suspectNodes(known.suspects) > kMostSuspect * static_cast<double>(shared.size()))
+    if (const std::string better = detail::betterReading(views, shared); !better.empty()) return misread(better);
   auto uncertainty = uncertaintyOf(views, withoutSuspects(shared, known.suspects), options.click_px);
   if (!uncertainty) return uncertainty.failure();
   known.uncertainty = *std::move(uncertainty);

@@ -133,6 +133,31 @@ std::vector<std::string> uprightNotes(const Bundle& bundle, const Uncertainty& u
           fixed(uncertainty.turned[2].degrees(), 1) + " degrees about X, Y and Z"};
 }
 
+/// Two views that show every node in the same place: from one side, so that nothing says how deep a node is. (A plant that is flat
+/// and stands just so looks alike from two sides; of three views the third one tells.)
+std::vector<std::string> sameSideNotes(const Bundle& bundle, double click_px) {
+  if (bundle.cameras.size() != 2) return {};
+  std::vector<double> across[2];
+  for (std::size_t p = 0; p < bundle.nodes; ++p)
+    if (const auto& clicks = bundle.points[p].clicks; clicks.size() == 2)
+      for (const BundleClick& click : clicks) across[click.view].push_back(click.px.x);
+  const double count = static_cast<double>(across[0].size());
+  if (count < 6 || across[1].size() != across[0].size()) return {};
+  double mean[2] = {0, 0}, xx = 0, xy = 0, yy = 0;
+  for (int v = 0; v < 2; ++v)
+    for (const double x : across[v]) mean[v] += x / count;
+  for (std::size_t i = 0; i < across[0].size(); ++i) {
+    const double x = across[0][i] - mean[0], y = across[1][i] - mean[1];
+    xx += x * x, xy += x * y, yy += y * y;
+  }
+  if (!(xx > 0 && xy > 0)) return {};
+  const double left_px = std::sqrt(std::max(yy - xy * xy / xx, 0.0) / count), spread_px = std::sqrt(yy / count);
+  constexpr double kAlike = 0.03;  // of how far the nodes spread
+  if (left_px > std::max(2.5 * click_px, kAlike * spread_px) || spread_px < 10 * click_px) return {};
+  return {"views '" + bundle.cameras[0].view.name + "' and '" + bundle.cameras[1].view.name +
+          "' show every node in the same place: if both were taken from one side, no depth here is true; take a photo from another side"};
+}
+
 }  // namespace
 
 /// Several clicks at the very edge of a photo: the plant goes on beyond it.
@@ -159,6 +184,7 @@ std::vector<std::string> notesOn(const Bundle& bundle, const std::vector<Miss>& 
   add(originNotes(bundle, estimated.uncertainty.click_px));
   add(lengthNotes(bundle, estimated));
   add(nodeNotes(estimated.uncertainty));
+  add(sameSideNotes(bundle, estimated.uncertainty.click_px));
   add(uprightNotes(bundle, estimated.uncertainty));
   constexpr double kRough_px = 6;
   if (const double typical_px = typicalMiss(misses); typical_px > kRough_px)

@@ -6,6 +6,7 @@
 #include "skeleton3d/bundle.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ namespace axil::skeleton3d::detail {
 
 /// The same for a bundle that fits, where that alone does not settle it: two directions only, clicks far off, cameras far turned.
 [[nodiscard]] std::string doubtOn(const Bundle& fitted, const EstimateOptions& options);
+
+/// The same where all cameras are known and clicks are far off: exchanged between two views, mirrored or upside down in one.
+[[nodiscard]] std::string betterReading(std::span<const View> views, std::span<const ClickedNode> nodes);
 
 [[nodiscard]] std::vector<std::string> weaknessesOf(const BundleCamera& camera, const CameraReport& report);
 

@@ -2,6 +2,7 @@
 
 #include "base/text.hpp"
 #include "skeleton3d/camera.hpp"
+#include "skeleton3d/solve_all.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <limits>
 
 namespace axil::skeleton3d::detail {
 namespace {
@@ -107,7 +109,70 @@ Bundle thinned(Bundle bundle) {
   return bundle;
 }
 
+/// How far off the clicks typically are in known cameras; nothing where no node has a place.
+std::optional<double> typicalIn(std::span<const View> views, std::span<const ClickedNode> nodes) {
+  const auto solved = solveAll(views, nodes, {.maxReprojection_px = std::numeric_limits<double>::max()}, "plant units");
+  if (!solved) return std::nullopt;
+  std::vector<double> offs;
+  for (const auto& node : solved->nodes)
+    if (node)
+      for (const auto& [view, off_px] : node->reprojection_px) offs.push_back(off_px);
+  return 2 * offs.size() > nodes.size() ? std::optional(medianOf(std::move(offs))) : std::nullopt;
+}
+
+struct KnownReading {
+  std::string words;
+  std::vector<ClickedNode> nodes;
+};
+
+std::vector<ClickedNode> exchanged(std::span<const ClickedNode> nodes, const std::string& a, const std::string& b) {
+  std::vector<ClickedNode> others(nodes.begin(), nodes.end());
+  for (ClickedNode& node : others) {
+    auto one = node.clicks.extract(a), other = node.clicks.extract(b);
+    if (one) one.key() = b, node.clicks.insert(std::move(one));
+    if (other) other.key() = a, node.clicks.insert(std::move(other));
+  }
+  return others;
+}
+
+/// With each click of `view` at `factor` times its place plus `shift`.
+std::vector<ClickedNode> moved(std::span<const ClickedNode> nodes, const std::string& view, glm::dvec2 factor, glm::dvec2 shift) {
+  std::vector<ClickedNode> others(nodes.begin(), nodes.end());
+  for (ClickedNode& node : others)
+    if (const auto click = node.clicks.find(view); click != node.clicks.end()) click->second.px = factor * click->second.px + shift;
+  return others;
+}
+
+std::vector<KnownReading> knownReadings(std::span<const View> views, std::span<const ClickedNode> nodes) {
+  std::vector<KnownReading> readings;
+  for (std::size_t a = 0; a < views.size(); ++a)
+    for (std::size_t b = a + 1; b < views.size(); ++b)
+      readings.push_back({"views '" + views[a].name + "' and '" + views[b].name + "' are exchanged", exchanged(nodes, views[a].name, views[b].name)});
+  for (const View& view : views) {
+    const glm::dvec2 size(view.size_px);
+    if (!(size.x > 0 && size.y > 0)) continue;
+    readings.push_back({"the photo of view '" + view.name + "' is mirrored", moved(nodes, view.name, {-1, 1}, {size.x, 0})});
+    readings.push_back({"the photo of view '" + view.name + "' is turned by 180 degrees", moved(nodes, view.name, {-1, -1}, size)});
+  }
+  return readings;
+}
+
 }  // namespace
+
+std::string betterReading(std::span<const View> views, std::span<const ClickedNode> nodes) {
+  const auto typical_px = typicalIn(views, nodes);
+  if (!typical_px) return {};
+  constexpr double kClearly = 0.3;
+  std::string best;
+  double least = kClearly * *typical_px;
+  for (const KnownReading& reading : knownReadings(views, nodes))
+    if (const auto other = typicalIn(views, reading.nodes); other && *other < least) {
+      least = *other;
+      best = "it seems that " + reading.words + " (the clicks are then typically " + fixed(*other, 1) + " px off instead of " + fixed(*typical_px, 1) +
+             "); correct the views, or click the same points in each";
+    }
+  return best;
+}
 
 std::string betterReading(const Bundle& gathered, const EstimateOptions& options, std::optional<double> typical_px) {
   const Bundle few = thinned(gathered);

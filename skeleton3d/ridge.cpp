@@ -26,11 +26,15 @@ glm::vec4 bilinear(const Photo& photo, const StemLikelihood& likelihood, glm::dv
   if (likelihood.empty() && ix >= 0 && iy >= 0 && ix + 1 < photo.width && iy + 1 < photo.height) {  // nearly always, and three times as fast
     const std::size_t row = std::size_t{3} * static_cast<std::size_t>(photo.width);
     const std::uint8_t *above = photo.rgb.data() + static_cast<std::size_t>(iy) * row + std::size_t{3} * static_cast<std::size_t>(ix), *below = above + row;
-    const auto at = [](const std::uint8_t* rgb) { return glm::vec4(rgb[0], rgb[1], rgb[2], 0.0F); };
-    return (at(above) * (1 - u) + at(above + 3) * u) * (1 - v) + (at(below) * (1 - u) + at(below + 3) * u) * v;
+    const auto colour = [](const std::uint8_t* rgb) { return glm::vec4(rgb[0], rgb[1], rgb[2], 0.0F); };
+    return (colour(above) * (1 - u) + colour(above + 3) * u) * (1 - v) + (colour(below) * (1 - u) + colour(below + 3) * u) * v;
   }
   return (pixel(photo, likelihood, ix, iy) * (1 - u) + pixel(photo, likelihood, ix + 1, iy) * u) * (1 - v) +
          (pixel(photo, likelihood, ix, iy + 1) * (1 - u) + pixel(photo, likelihood, ix + 1, iy + 1) * u) * v;
+}
+
+glm::vec4 nearest(const Photo& photo, const StemLikelihood& likelihood, glm::dvec2 at) {
+  return pixel(photo, likelihood, static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)));
 }
 
 /// The derivative of a Gaussian, scaled so that a step of height h gives h at its place.
@@ -48,9 +52,15 @@ std::vector<glm::vec4> slopesOf(const std::vector<glm::vec4>& colour, double blu
   const std::vector<float> kernel = slopeKernel(blur_px);
   const int half = static_cast<int>(kernel.size() / 2), count = static_cast<int>(colour.size());
   std::vector<glm::vec4> slope(colour.size(), glm::vec4(0.0F));
-  for (int i = 0; i < count; ++i)
-    for (int k = -half; k <= half; ++k)
-      slope[static_cast<std::size_t>(i)] += kernel[static_cast<std::size_t>(k + half)] * colour[static_cast<std::size_t>(std::clamp(i + k, 0, count - 1))];
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  for (int i = 0; i < count; ++i) {
+    glm::vec4 sum(0.0F);
+    if (i >= half && i + half < count)
+      for (int k = 1; k <= half; ++k) sum += kernel[at(half + k)] * (colour[at(i + k)] - colour[at(i - k)]);  // the kernel is odd
+    else
+      for (int k = -half; k <= half; ++k) sum += kernel[at(k + half)] * colour[at(std::clamp(i + k, 0, count - 1))];
+    slope[at(i)] = sum;
+  }
   return slope;
 }
 
@@ -70,10 +80,11 @@ RidgeProfile profileAcross(const Photo& photo, const StemLikelihood& likelihood,
   profile.reach_px = half * kRidgeStep_px;
   const glm::dvec2 along{-across.y, across.x};
   const int stride = options.along_px >= 3 ? 2 : 1;
+  const auto sampled = options.sampling == Sampling::NearestPixel ? nearest : bilinear;
   for (int i = -half; i <= half; ++i) {
     const glm::dvec2 at = centre + i * kRidgeStep_px * across;
     glm::vec4 sum(0.0F);
-    for (int k = -options.along_px; k <= options.along_px; k += stride) sum += bilinear(photo, likelihood, at + static_cast<double>(k) * along);
+    for (int k = -options.along_px; k <= options.along_px; k += stride) sum += sampled(photo, likelihood, at + static_cast<double>(k) * along);
     profile.colour.push_back(sum / static_cast<float>(2 * options.along_px / stride + 1));
   }
   profile.slope = slopesOf(profile.colour, options.blur_px);

@@ -28,13 +28,33 @@ double nearness(double middle, double width, double reach_px) {
   return std::exp(-0.5 * off * off);
 }
 
+/// Where edges are steepest along a profile, the strongest of them, in order.
+std::vector<double> edgesIn(const RidgeProfile& profile) {
+  constexpr float kFaintest = 2;  // grey levels
+  constexpr std::size_t kMost = 24;
+  std::vector<float> heights;
+  for (const glm::vec4& slope : profile.slope) heights.push_back(glm::length(glm::vec3(slope)));
+  std::vector<std::size_t> peaks;
+  for (std::size_t i = 1; i + 1 < heights.size(); ++i)
+    if (heights[i] > kFaintest && heights[i] >= heights[i - 1] && heights[i] > heights[i + 1]) peaks.push_back(i);
+  std::stable_sort(peaks.begin(), peaks.end(), [&](std::size_t a, std::size_t b) { return heights[a] > heights[b]; });
+  peaks.resize(std::min(peaks.size(), kMost));
+  std::sort(peaks.begin(), peaks.end());
+  std::vector<double> edges;
+  for (const std::size_t i : peaks) edges.push_back(static_cast<double>(i) * kRidgeStep_px - profile.reach_px);
+  return edges;
+}
+
 Band bestBand(const RidgeProfile& profile, double maxWidth_px, double reach_px) {
+  constexpr double kNarrowest_px = 1.5;
+  const std::vector<double> edges = edgesIn(profile);
   Band best;
-  for (double width = 2; width <= maxWidth_px; width *= 1.2)
-    for (double middle = -reach_px; middle <= reach_px; middle += (width > 24 ? 4 : 2) * kRidgeStep_px) {
-      const double strength = ridgeStrength(profile, middle - 0.5 * width, middle + 0.5 * width);
-      const double score = strength * nearness(middle, width, reach_px);
-      if (score > best.score) best = {middle - 0.5 * width, middle + 0.5 * width, strength, score};
+  for (std::size_t l = 0; l < edges.size(); ++l)
+    for (std::size_t r = l + 1; r < edges.size() && edges[r] - edges[l] <= maxWidth_px; ++r) {
+      const double width = edges[r] - edges[l], middle = 0.5 * (edges[l] + edges[r]);
+      if (width < kNarrowest_px || std::abs(middle) > reach_px) continue;
+      const double strength = ridgeStrength(profile, edges[l], edges[r]), score = strength * nearness(middle, width, reach_px);
+      if (score > best.score) best = {edges[l], edges[r], strength, score};
     }
   return best;
 }
@@ -55,7 +75,7 @@ struct Found {
 
 Found searched(const Photo& photo, glm::dvec2 click, const SnapOptions& options) {
   const double maxWidth = widestStem_px(photo, options), pi = 3.14159265358979323846;
-  const ProfileOptions wide{.reach_px = options.reach_px + 0.5 * maxWidth + 3, .blur_px = 1, .along_px = 3};
+  const ProfileOptions wide{.reach_px = options.reach_px + 0.5 * maxWidth + 3, .blur_px = 1, .along_px = 3, .sampling = Sampling::NearestPixel};
   Found best;
   const int turns = options.along ? 5 : 12;
   for (int k = 0; k < turns; ++k) {
