@@ -16,6 +16,7 @@ constexpr double kWidthRatio = 1.22;  ///< from one width that is tried to the n
 constexpr double kWidthStep_px = 2;   ///< at most so much: an edge is as sharp in a wide stem
 constexpr double kTorn = 0.5;         ///< of a pair's strength is lost where another edge as strong runs between: the outer edges of two stems
 constexpr double kWidthScatter = 0.15; ///< of an expected width's logarithm
+constexpr double kLeastSeen = 0.08;   ///< edges of some three grey levels: less is grain
 constexpr double kMostClicks = 2;     ///< times a click's scatter: a line that is known no better says nothing
 constexpr double kLeastLength = 0.5;  ///< of a stem that is seen, in widths: shorter it has no edges along it
 constexpr int kMaxShift = 2;          ///< states sideways from one place to the next
@@ -228,6 +229,7 @@ std::optional<RidgeReading> joined(const EdgeFit& left, const EdgeFit& right, co
   reading.at.px += glm::dot(frame.click - reading.at.px, direction) * direction;
   reading.along = Angle::fromRadians(std::atan2(direction.y, direction.x));
   reading.width_px = width / std::sqrt(1 + slope * slope);
+  if (reading.confidence < kLeastSeen) return std::nullopt;
   if (!(reading.width_px > 0.5) || reading.sigmaAcross_px > kMostClicks * frame.click_px) return std::nullopt;
   return reading;
 }

@@ -111,5 +111,46 @@ TEST(Photographed, AWrongClickInKnownCamerasIsNamedAndLeftOut) {
   }
 }
 
+TEST(Photographed, AStemWhoseEndOnViewShowsNothingKeepsItsWidthAndPlace) {
+  AXIL_SKIP_WITHOUT_SHARED("data/plants/cases");
+  std::printf("seed 23\n");
+  const auto made = photographsOf(test::plantCaseFolders()[5], "plain", {.cameras = "ortho", .noise_px = 3, .seed = 23, .every = 1});  // a young maize, its stem 50 px wide
+  const auto snapping = snapNodes(made.plant.views, made.photos, made.plant.nodes, made.plant.stems);
+  ASSERT_TRUE(snapping) << snapping.error().message;
+  std::size_t measured = 0;
+  const std::vector<NodeId>& stem = made.plant.stems.front().nodes;
+  for (const SnappedNode& node : snapping->nodes)
+    if (std::find(stem.begin(), stem.end(), node.id) != stem.end() && node.radius) {
+      EXPECT_NEAR(*node.radius, 0.0046, 0.0009) << node.id.value;
+      ++measured;
+    }
+  EXPECT_GT(measured, stem.size() / 2);
+}
+
+TEST(Photographed, PhotosOfOneGreyKeepEveryClickAsItIs) {
+  AXIL_SKIP_WITHOUT_SHARED("data/plants/cases");
+  auto made = photographsOf(test::plantCaseFolders()[0], "plain", {.cameras = "persp", .noise_px = 1, .seed = 15, .every = 6});
+  for (auto& [view, photo] : made.photos) std::fill(photo.rgb.begin(), photo.rgb.end(), std::uint8_t{128});
+  const auto found = measurePhotographed(made.plant.views, {}, made.photos, made.plant.nodes, {.stems = made.plant.stems});
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_FALSE(found->snapping.nodes.empty());
+  for (const SnappedNode& node : found->snapping.nodes) EXPECT_TRUE(node.snappedIn.empty()) << node.id.value;
+}
+
+TEST(Photographed, ViewsReadTheWrongWayAreNamedInKnownCamerasToo) {
+  AXIL_SKIP_WITHOUT_SHARED("data/plants/cases");
+  const auto made = test::readPlantCase(test::plantCaseFolders()[0], {.cameras = "persp", .noise_px = 2, .seed = 16, .every = 6});
+  auto exchanged = made.nodes, mirrored = made.nodes;
+  for (ClickedNode& node : exchanged)
+    if (node.clicks.contains("front") && node.clicks.contains("right")) std::swap(node.clicks.at("front"), node.clicks.at("right"));
+  for (ClickedNode& node : mirrored)
+    if (const auto click = node.clicks.find("right"); click != node.clicks.end()) click->second.px.x = 1200 - click->second.px.x;
+  const auto first = estimateCameras(made.views, {}, exchanged), second = estimateCameras(made.views, {}, mirrored);
+  ASSERT_FALSE(first);
+  EXPECT_NE(first.error().message.find("'front' and 'right' are exchanged"), std::string::npos) << first.error().message;
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.error().message.find("'right' is mirrored"), std::string::npos) << second.error().message;
+}
+
 }  // namespace
 }  // namespace axil::skeleton3d
