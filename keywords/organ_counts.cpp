@@ -22,8 +22,11 @@ std::size_t ParagraphReader::readCountOfOrganBefore(std::size_t i, const NumberR
                         ((counter.end < tokens_.size() && found_[counter.end] && (found_[counter.end].as("arrangement") || found_[counter.end].as("position"))) || isAny(counter.end, {"着", "著", "生", "聚"}));
   // 孢子囊群圓形，每小羽片4-6枚
   const bool forEach = isHan(range.end) && counter.end > range.end && beforeEach(i) != i && scope_.subjectInClause && before > 0 && tokens_[before - 1].kind == TokenKind::Sign;
-  if (!isCountable(noun) || (before != scope_.organEnd && !orSolitary && !together && !forEach && !isBehindRows(before))) return 0;
-  if (scope_.place != nullptr) return 0;
+  // 花瓣白色，5枚: a number with its counter alone between commas.
+  const bool alone = isHan(range.end) && counter.end > range.end && counter.unit.empty() && scope_.subjectInClause && before > 0 && isAny(before - 1, {",", "，"}) &&
+                     (counter.end >= tokens_.size() || tokens_[counter.end].kind == TokenKind::Sign);
+  if (!isCountable(noun) || (!alone && before != scope_.organEnd && !orSolitary && !together && !forEach && !isBehindRows(before))) return 0;
+  if (scope_.place != nullptr && !alone) return 0;
   const Measure measure = measureAt(range.end);
   const Concept* next = nounAt(measure.end);
   // 花八仙, 主根一說: a numeral inside other words counts nothing.
@@ -35,7 +38,8 @@ std::size_t ParagraphReader::readCountOfOrganBefore(std::size_t i, const NumberR
   const bool ofPiece = &noun == scope_.piece;
   const Concept* per = is(measure.end, "per") ? nounAt(measure.end + 1) : nullptr;
   const std::string unit = !measure.unit.empty() ? measure.unit : per != nullptr ? "per " + per->name : unitOfEach(i);
-  addCount(i, measure.end, scope_.organ->name, ofPiece ? noun.name : "", range, unit);
+  const bool ofFlowers = measure.end > range.end && is(range.end, "朵") && scope_.organ->name == "inflorescence";  // 聚繖花序頂生，5朵叢生
+  addCount(i, measure.end, ofFlowers ? "flower" : scope_.organ->name, ofPiece ? noun.name : "", range, unit);
   evidence_ += ofPiece && found_[scope_.organEnd - 1].as("organ") ? 0.5 : 1;
   return per != nullptr ? found_[measure.end + 1].end : measure.end;
 }

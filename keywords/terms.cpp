@@ -142,7 +142,8 @@ bool ParagraphReader::goesElsewhere(std::size_t i, std::size_t end) const {
 bool ParagraphReader::isOppositeOfLeaves(std::size_t i) const {
   const bool besides = scope_.organ != nullptr && isOneOf(scope_.organ->name, {"tendril", "inflorescence", "peduncle", "stipule", "bud"}) && scope_.subjectInClause;
   const Concept* next = nounAt(found_[i].end);
-  return is(i, "opposite") && besides && next != nullptr && next->name == "leaf";
+  const bool ofFlowerParts = next != nullptr && isOneOf(next->name, {"sepal", "petal", "tepal", "calyx", "corolla"});  // "stamens 5, (opposite sepals)"
+  return is(i, "opposite") && ((besides && next != nullptr && next->name == "leaf") || ofFlowerParts);
 }
 
 void ParagraphReader::quote(Trait& trait, std::size_t first, std::size_t end) const {
@@ -244,7 +245,7 @@ bool ParagraphReader::isPredicateBasal(std::size_t i) const {
 
 // "bark ... lobed", 冠毛羽狀: a statement that cannot be about the subject of its clause is not handed on to the leaf either.
 bool ParagraphReader::isOfAnotherOrgan(const Category& category, const Concept* organ, bool named) const {
-  if (named || organ == nullptr || organ != scope_.organ || !scope_.subjectInClause || accepts(category, organ) || category.ownOrgan) return false;
+  if (named || organ == nullptr || organ != scope_.organ || !(scope_.subjectInClause || (organ->name == "bark" && scope_.organInSentence)) || accepts(category, organ) || category.ownOrgan) return false;
   return isOneOf(organ->name, {"bark", "root", "hair", "seta", "pappus", "vein", "awn", "thorn", "ovary", "gland", "lenticel", "style", "stigma", "stamen", "anther", "filament", "seed", "fruit", "rhizome", "pericarp", "stone", "sorus"});
 }
 
@@ -269,6 +270,7 @@ bool ParagraphReader::saysNothingOf(const Meaning& meaning, std::size_t i, const
   if (property == "arrangement" && isHan(i) && isOneOf(value, {"fascicled", "scattered"}) && isAboutHairs(found_[i].end)) return true;
   if (property == "arrangement" && value == "spiral" && isAny(found_[i].end, {"twisted", "coiled", "contorted", "curved", "wound", "扭", "捲", "卷", "旋", "彎", "弯"})) return true;
   if (property == "arrangement" && value == "rosette" && is(i + 1, "出")) return numberAt(tokens_, found_[i].end).has_value() || isAny(found_[i].end, {"脈", "脉", "掌"});  // 基出3脈
+  if (property == "arrangement" && value == "rosette" && isOneOf(name, {"inflorescence", "flower", "bud", "fruit"})) return true;
   if (property == "type" && value == "solitary" && is(found_[i].end, "-")) return true;  // "single-nerved"
   if (property == "margin" && value == "spinose" && isOneOf(name, {"fruit", "seed", "stem", "branch", "plant", "calyx"})) return true;  // 蒴果具刺
   if (property == "margin" && value == "entire" && i > 0 && isAny(i - 1, {"falling", "shed", "dispersed", "swallowed"})) return true;

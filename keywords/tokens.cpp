@@ -174,23 +174,25 @@ void append(std::string& letters, const Folded& folded) {
   for (std::size_t i = 0; i < folded.count; ++i) appendUtf8(letters, folded.codes[i]);
 }
 
-TokenKind takeToken(Reader& reader, std::string& letters) {
+TokenKind takeToken(Reader& reader, std::string& letters, const Token& before) {
   const Folded taken = reader.take();
   const char32_t first = taken.codes[0];
   if (const std::string decimals = decimalsOf(taken); !decimals.empty()) {
     letters += "0" + decimals;
     return TokenKind::Number;
   }
+  const bool startsWithPoint = first == '.' && before.spaceBefore && isDigit(reader.peek());  // ".3 mm long"
+  if (startsWithPoint) letters += '0';
   append(letters, taken);
   if (isHan(first)) return TokenKind::Han;
-  if (isDigit(first)) {
-    for (bool point = false;;) {
+  if (isDigit(first) || startsWithPoint) {
+    for (bool point = startsWithPoint;;) {
       if (const std::string decimals = decimalsOf(reader.peekFolded()); !decimals.empty()) {  // "1½"
         reader.take();
         if (!point) letters += decimals;
         break;
       }
-      const bool isPoint = reader.peek() == '.' && isDigit(reader.peekSecond());
+      const bool isPoint = !startsWithPoint && reader.peek() == '.' && isDigit(reader.peekSecond());
       if (!isDigit(reader.peek()) && !isPoint) break;
       point = point || isPoint;
       append(letters, reader.take());
@@ -261,7 +263,7 @@ void tokenize(std::string_view text, std::uint32_t firstByte, std::size_t firstC
     token.begin = reader.byte();
     token.start = reader.character();
     const std::size_t from = into.letters.size();
-    token.kind = takeToken(reader, into.letters);
+    token.kind = takeToken(reader, into.letters, token);
     token.text = std::string_view(into.letters).substr(from);
     token.end = reader.byte();
     token.stop = reader.character();

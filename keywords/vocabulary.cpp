@@ -37,7 +37,7 @@ std::vector<Source> sources() {
       {"base", "leaf", "base", data::base},
       {"margin", "leaf", "margin", data::margin, false, {}, {"vein", "stem", "branch", "trunk", "thorn", "rachis", "petiole", "petiolule", "pedicel", "peduncle", "rhizome", "root", "bark", "disk"}},
       {"attachment", "leaf", "", data::attachment},
-      {"venation", "leaf", "", data::venation},
+      {"venation", "leaf", "", data::venation, false, {}, {"pappus", "awn", "stigma", "style", "hair", "seta", "coma"}},
       {"surface", "leaf", "surface", data::surface},
       {"life form", "plant", "", data::life_form, true},
       {"duration", "plant", "", data::duration},
