@@ -1,9 +1,8 @@
 #include "render/headless_window.hpp"
 
-#include <vtk_glew.h>
+#include "render/drawing_context.hpp"
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
+#include <vtk_glew.h>
 
 #include <vtkAutoInit.h>
 #include <vtkCallbackCommand.h>
@@ -13,7 +12,6 @@
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkRenderer.h>
 
-#include <array>
 #include <string>
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2)
@@ -72,55 +70,6 @@ class ContextWindow : public vtkGenericOpenGLRenderWindow {
 };
 vtkStandardNewMacro(ContextWindow)
 
-EGLDisplay openDisplay() {
-  const auto platformDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
-  EGLint major = 0, minor = 0;
-  if (platformDisplay != nullptr) {
-    const EGLDisplay surfaceless = platformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (surfaceless != EGL_NO_DISPLAY && eglInitialize(surfaceless, &major, &minor)) return surfaceless;
-  }
-  const EGLDisplay usual = eglGetDisplay(EGL_DEFAULT_DISPLAY);
-  return usual != EGL_NO_DISPLAY && eglInitialize(usual, &major, &minor) ? usual : EGL_NO_DISPLAY;
-}
-
-class EglContext {
- public:
-  EglContext() = default;
-  EglContext(const EglContext&) = delete;
-  EglContext& operator=(const EglContext&) = delete;
-  /// The display is the process's one and may serve another window, so it stays initialised.
-  ~EglContext() {
-    if (display_ == EGL_NO_DISPLAY) return;
-    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    if (surface_ != EGL_NO_SURFACE) eglDestroySurface(display_, surface_);
-    if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
-  }
-
-  [[nodiscard]] bool open() {
-    display_ = openDisplay();
-    if (display_ == EGL_NO_DISPLAY || !eglBindAPI(EGL_OPENGL_API)) return false;
-    constexpr std::array<EGLint, 15> wanted{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8,
-                                            EGL_BLUE_SIZE, 8, EGL_ALPHA_SIZE, 8, EGL_DEPTH_SIZE, 24, EGL_NONE};
-    EGLConfig config = nullptr;
-    EGLint found = 0;
-    if (!eglChooseConfig(display_, wanted.data(), &config, 1, &found) || found < 1) return false;
-    constexpr std::array<EGLint, 7> version{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-    context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, version.data());
-    // VTK asks the default framebuffer for its depth, so there must be one, however small.
-    constexpr std::array<EGLint, 5> size{EGL_WIDTH, 16, EGL_HEIGHT, 16, EGL_NONE};
-    surface_ = eglCreatePbufferSurface(display_, config, size.data());
-    return context_ != EGL_NO_CONTEXT && surface_ != EGL_NO_SURFACE && makeCurrent();
-  }
-
-  [[nodiscard]] bool makeCurrent() const { return eglMakeCurrent(display_, surface_, surface_, context_) == EGL_TRUE; }
-
- private:
-  EGLDisplay display_ = EGL_NO_DISPLAY;
-  EGLContext context_ = EGL_NO_CONTEXT;
-  EGLSurface surface_ = EGL_NO_SURFACE;
-};
-
 /// Collects what VTK would print on the terminal.
 class Complaints {
  public:
@@ -146,9 +95,13 @@ class Complaints {
 }  // namespace
 
 struct HeadlessWindow::Inside {
-  EglContext context;                 // outlives the window, whose end still draws with it
+  DrawingContext context;             // outlives the window, whose end still draws with it
   vtkNew<ContextWindow> window;
 
+  explicit Inside(DrawingContext opened) : context(std::move(opened)) {}
+
+  Inside(const Inside&) = delete;
+  Inside& operator=(const Inside&) = delete;
   ~Inside() {
     if (context.makeCurrent()) window->Finalize();
   }
@@ -160,9 +113,9 @@ HeadlessWindow& HeadlessWindow::operator=(HeadlessWindow&&) noexcept = default;
 HeadlessWindow::~HeadlessWindow() = default;
 
 Result<HeadlessWindow> HeadlessWindow::open() {
-  auto inside = std::make_unique<Inside>();
-  if (!inside->context.open())
-    return fail(ErrorCode::NoAnswer, "no picture can be drawn: this machine has no EGL with OpenGL 3.2 (on Debian: apt-get install libegl1 libgl1-mesa-dri)");
+  auto context = DrawingContext::open();
+  if (!context) return context.failure();
+  auto inside = std::make_unique<Inside>(std::move(*context));
   inside->window->SetSupportsOpenGL(1);
   inside->window->SetIsDirect(1);
   inside->window->SetIsCurrent(true);

@@ -2,11 +2,10 @@
 #include "ui/headless.hpp"
 
 #include "base/text.hpp"
+#include "render/drawing_context.hpp"
 #include "render/picture.hpp"
 #include "ui/drawing.hpp"
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <GLFW/glfw3.h>
@@ -23,37 +22,6 @@
 
 namespace axil::ui {
 namespace {
-
-class Context {
- public:
-  Context() = default;
-  Context(const Context&) = delete;
-  Context& operator=(const Context&) = delete;
-  /// The display is the process's one and serves the plant's pictures too, so it stays initialised.
-  ~Context() {
-    if (display_ == EGL_NO_DISPLAY) return;
-    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
-  }
-  [[nodiscard]] bool open() {
-    const auto platformDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
-    if (platformDisplay != nullptr) display_ = platformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    EGLint major = 0, minor = 0;
-    if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, &major, &minor) || !eglBindAPI(EGL_OPENGL_API)) return false;
-    constexpr std::array<EGLint, 5> wanted{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
-    EGLConfig config = nullptr;
-    EGLint found = 0;
-    if (!eglChooseConfig(display_, wanted.data(), &config, 1, &found) || found < 1) return false;
-    constexpr std::array<EGLint, 7> version{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-    context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, version.data());
-    return context_ != EGL_NO_CONTEXT && eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
-  }
-
- private:
-  EGLDisplay display_ = EGL_NO_DISPLAY;
-  EGLContext context_ = EGL_NO_CONTEXT;
-};
 
 /// A picture in the graphics memory that frames are drawn into.
 class Canvas {
@@ -121,7 +89,7 @@ std::vector<std::string> wordsOf(std::string_view line) {
 }  // namespace
 
 struct HeadlessStudio::Inside {
-  Context context;
+  std::optional<render::DrawingContext> context;
   std::unique_ptr<Canvas> canvas;
   bool started = false;
   std::optional<Studio> studio;
@@ -391,9 +359,10 @@ HeadlessStudio& HeadlessStudio::operator=(HeadlessStudio&&) noexcept = default;
 HeadlessStudio::~HeadlessStudio() = default;
 
 Result<HeadlessStudio> HeadlessStudio::open(StudioOptions options, int width_px, int height_px) {
+  auto context = render::DrawingContext::open();
+  if (!context) return context.failure();
   auto inside = std::make_unique<Inside>();
-  if (!inside->context.open())
-    return fail(ErrorCode::NoAnswer, "nothing can be drawn: this machine has no EGL with OpenGL 3.2 (on Debian: apt-get install libegl1 libgl1-mesa-dri)");
+  inside->context.emplace(std::move(*context));
   inside->canvas = std::make_unique<Canvas>(width_px, height_px);
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();

@@ -28,7 +28,7 @@ PACKAGES = {
     r"CGAL/": {"skeleton3d", "quantify"},
     r"Eigen/": {"skeleton3d", "quantify"},
     r"vtk\w+\.h|vtk_glew\.h": {"render"},
-    r"EGL/": {"render", "ui"},
+    r"EGL/": {"render"},
     r"tiny_gltf\.h|tinygltf": {"render"},
     r"GLFW/|imgui": {"ui"},
     r"CLI/": {"app"},
