@@ -12,6 +12,9 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <condition_variable>
+#include <map>
+#include <mutex>
 #include <span>
 #include <string_view>
 
@@ -77,6 +80,7 @@ class Stretches {
   Stretches(const Stretches&) = delete;
 
   [[nodiscard]] const std::array<Stretch, 3>& all() const { return all_; }
+  [[nodiscard]] std::size_t vertexCount() const { return vertices_; }
   [[nodiscard]] std::size_t triangleCount() const { return triangles_; }
   [[nodiscard]] const Stretch& ofTriangle(std::size_t t) const { return t < all_[1].firstTriangle ? all_[0] : t < all_[2].firstTriangle ? all_[1] : all_[2]; }
   [[nodiscard]] const TriangleSource& source(std::size_t t) const {
@@ -138,21 +142,48 @@ std::vector<std::uint32_t> byOrgan(const Stretches& stretches) {
   return order;
 }
 
-/// Puts `write(i, text)` for every i below `count`: threads write pieces, and each is put when its turn has come.
+/// Pieces of text that threads make in any order, put in theirs. A thread that is early leaves its piece here and goes on.
+template <class Put>
+class InOrder {
+ public:
+  explicit InOrder(const Put& put) : put_(put) {}
+
+  void add(std::size_t number, std::string piece) {
+    std::unique_lock lock(mutex_);
+    // Not too far ahead of one that is slow, or all of the text would wait here.
+    roomy_.wait(lock, [&] { return number < turn_ + kMostAhead; });
+    early_.emplace(number, std::move(piece));
+    for (; !early_.empty() && early_.begin()->first == turn_; ++turn_) {
+      put_(early_.begin()->second);
+      early_.erase(early_.begin());
+    }
+    roomy_.notify_all();
+  }
+
+ private:
+  static constexpr std::size_t kMostAhead = 64;
+  const Put& put_;
+  std::mutex mutex_;
+  std::condition_variable roomy_;
+  std::map<std::size_t, std::string> early_;
+  std::size_t turn_ = 0;
+};
+
+/// Puts `write(i, text)` for every i below `count`, in order; threads write pieces.
 template <class Put, class Write>
 void putEach(const Put& put, std::size_t count, const Write& write) {
   constexpr std::size_t atOnce = 8192;
   const std::size_t pieces = piecesFor(count, atOnce);
-  std::atomic<std::size_t> next = 0, turn = 0;
+  std::atomic<std::size_t> next = 0;
+  InOrder inOrder(put);
   inParallel(threadsFor(pieces), [&](std::size_t) {
-    std::string piece;
+    std::size_t longest = 0;
     for (std::size_t k = next++; k < pieces; k = next++) {
-      piece.clear();
+      std::string piece;
+      piece.reserve(longest);
       for (std::size_t i = k * atOnce; i < std::min((k + 1) * atOnce, count); ++i) write(i, piece);
-      for (std::size_t now = turn; now != k; now = turn) turn.wait(now);
-      put(piece);
-      turn = k + 1;
-      turn.notify_all();
+      longest = std::max(longest, piece.size());
+      inOrder.add(k, std::move(piece));
     }
   });
 }
@@ -194,6 +225,7 @@ Result<ObjFiles> objAndMtl(const PlantMesh& mesh, const std::string& mtlName) {
   if (const auto checked = checkMtlName(mtlName); !checked) return checked.failure();
   const Stretches stretches(mesh);
   ObjFiles files{.obj = {}, .mtl = mtlOf(mesh, stretches)};
+  files.obj.reserve(stretches.vertexCount() * 64 + stretches.triangleCount() * 54 + 1024);  // pages that stay empty cost nothing
   putObj([&](std::string_view piece) { files.obj += piece; }, mesh, stretches, mtlName);
   return files;
 }
