@@ -474,6 +474,8 @@ bool Studio::prepareFonts() {
   return inside_->fonts.prepare(inside_->state.scale);
 }
 
+void Studio::tell(const Error& error) { inside_->fail(error); }
+
 Colour Studio::ground() const { return paletteOf(inside_->state.theme).ground; }
 
 void Studio::frame() {

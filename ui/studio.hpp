@@ -34,6 +34,8 @@ class Studio {
   ~Studio();
 
   [[nodiscard]] Result<void> open(const std::filesystem::path& project);
+  /// In the line at the bottom, in the person's language.
+  void tell(const Error& error);
   /// One line of a saved session: a step, undo or redo.
   [[nodiscard]] Result<void> runLine(std::string_view line);
   /// Files dropped on the window: a project is opened, photos get a view.

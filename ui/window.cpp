@@ -112,7 +112,7 @@ Result<void> runWindow(WindowOptions options) {
   auto studio = Studio::create(std::move(options.studio));
   if (!studio) return studio.failure();
   if (!options.project.empty())
-    if (auto opened = studio->open(options.project); !opened) return opened;
+    if (auto opened = studio->open(options.project); !opened) studio->tell(opened.error());
   glfwSetWindowUserPointer(desktop.window(), &*studio);
   glfwSetDropCallback(desktop.window(), [](GLFWwindow* window, int count, const char** paths) {
     static_cast<Studio*>(glfwGetWindowUserPointer(window))->drop({paths, paths + count});
