@@ -103,9 +103,20 @@ bool looksLikeText(std::string_view utf8) {
   return controls * 100 <= utf8.size();
 }
 
+// A file that was cut off inside a character: what stands before that, where it is UTF-8 and more than plain ASCII.
+std::optional<std::string_view> beforeBrokenEnd(std::string_view bytes) {
+  constexpr std::size_t longestPiece = 3;
+  for (std::size_t cut = 1; cut <= longestPiece && cut < bytes.size(); ++cut) {
+    const std::string_view kept = bytes.substr(0, bytes.size() - cut);
+    if (isUtf8(kept) && std::any_of(kept.begin(), kept.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x80; })) return kept;
+  }
+  return std::nullopt;
+}
+
 std::optional<DecodedText> decoded(std::string_view bytes) {
   if (isUtf8(bytes) || bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) return decodeText(bytes);
   if (bytes.find('\0') != std::string_view::npos) return std::nullopt;
+  if (const auto kept = beforeBrokenEnd(bytes)) return DecodedText{std::string(*kept), "UTF-8"};
   // One encoding for the whole file reads best; lines are looked at alone where some of them are UTF-8 already.
   bool someUtf8 = false;
   for (std::size_t begin = 0; begin < bytes.size() && !someUtf8;) {

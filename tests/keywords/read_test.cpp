@@ -183,6 +183,17 @@ TEST(ReadTraits, RefusesWhatIsNoDescription) {
   }
 }
 
+TEST(ReadTraits, AFileCutOffInsideACharacterIsStillRead) {
+  const std::string whole = "葉對生，卵形，全緣";
+  for (const std::size_t cut : {1u, 2u}) {
+    const Result<Traits> traits = readTraits(std::string_view(whole).substr(0, whole.size() - cut));
+    ASSERT_TRUE(traits) << traits.error().message;
+    ASSERT_EQ(traits->size(), 2u);
+    EXPECT_EQ((*traits)[0].value, "opposite");
+    EXPECT_EQ((*traits)[1].value, "ovate");
+  }
+}
+
 TEST(ReadTraits, StatesItsLimit) {
   const std::string text(descriptionLimitBytes + 1, 'a');
   const Result<Traits> traits = readTraits(text);
