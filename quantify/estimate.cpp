@@ -165,6 +165,28 @@ Combined combined(std::span<const double> values, std::span<const double> varian
   return result;
 }
 
+double betweenGroups(std::span<const std::vector<double>> groups) {
+  constexpr double kFewest = 8, kClearly = 3;
+  double count = 0, squares = 0, members = 0, all = 0, within = 0, between = 0;
+  for (const auto& group : groups) {
+    if (group.size() < 2) continue;
+    const double n = static_cast<double>(group.size());
+    count += 1;
+    members += n;
+    squares += n * n;
+    all += n * meanOf(group);
+    within += (n - 1) * std::pow(deviationAround(group, meanOf(group)), 2);
+  }
+  if (count < kFewest) return 0;
+  for (const auto& group : groups)
+    if (group.size() > 1) between += static_cast<double>(group.size()) * std::pow(meanOf(group) - all / members, 2);
+  within /= members - count;
+  between /= count - 1;
+  const double byChance = std::sqrt(2 / (count - 1) + 2 / (members - count));
+  if (between <= (1 + kClearly * byChance) * within) return 0;
+  return std::sqrt((between - within) * (count - 1) / (members - squares / members));
+}
+
 Estimate estimateOf(std::span<const Sample> samples, SampleKind kind) {
   Estimate estimate;
   estimate.samples = samples.size();

@@ -28,6 +28,9 @@ struct Combined {
 };
 [[nodiscard]] Combined combined(std::span<const double> values, std::span<const double> variances);
 
+/// How much groups differ beyond what their members do, as a deviation: the component of variance between them (one way, groups of unlike size); 0 where it is no more than chance.
+[[nodiscard]] double betweenGroups(std::span<const std::vector<double>> groups);
+
 /// An estimate of samples of several plants. A share counts as binomial.
 enum class SampleKind { Plain, Share };
 [[nodiscard]] Estimate estimateOf(std::span<const Sample> samples, SampleKind kind);

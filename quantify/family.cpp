@@ -15,6 +15,8 @@ namespace axil::quantify {
 namespace {
 
 constexpr std::size_t kEnoughAxes = 12;   // for an order to have rules of its own
+constexpr double kRounding = 1e-4;        // of logarithms: no chance
+constexpr double kLittle = 0.3;           // of what levels seem to vary, so little is none
 constexpr std::size_t kTested = 8;        // fewer samples contradict nothing
 
 /// One axis and what it could have made.
@@ -355,6 +357,7 @@ class FamilyMaker {
     FamilyOrder& o = family_.orders[g];
     std::vector<double> own, trunks;
     std::map<ArmPlace, std::vector<double>> ratios, levels;
+    std::map<std::pair<std::size_t, SegmentId>, std::vector<std::pair<ArmPlace, double>>> sisters;
     double segments = 0;
     std::size_t borne = 0;
     eachCase(g, [&](const AxisCase& c) {
@@ -367,7 +370,9 @@ class FamilyMaker {
       segments += c.count();
       if (!c.axis->bearer) return;
       ++borne;
-      ratios[armOf(c)].push_back(own.back() - lengthAt(cases_[c.plant][static_cast<std::size_t>(c.axis->parent->value)], static_cast<int>(c.bearerRank)));
+      const double ratio = own.back() - lengthAt(cases_[c.plant][static_cast<std::size_t>(c.axis->parent->value)], static_cast<int>(c.bearerRank));
+      ratios[armOf(c)].push_back(ratio);
+      sisters[{c.plant, *c.axis->bearer}].emplace_back(armOf(c), ratio);
     });
     if (g == 0) family_.firstLength = std::exp(centreOf(trunks.empty() ? own : trunks).value);
     if (own.empty()) {
@@ -385,6 +390,12 @@ class FamilyMaker {
       const double noise = residual_[g] * residual_[g] * static_cast<double>(own.size()) / segments;
       keep = std::sqrt(std::max(0.0, 1 - noise / (spread * spread)));
     }
+    if (o.startsFromBearer && segments == static_cast<double>(own.size()))
+      if (const double noise = noiseOfBearers(sisters, ratios); noise > kRounding) {
+        giveNoise(g, noise, own.size());
+        keep = std::sqrt(std::max(0.0, 1 - 2 * std::pow(noise / deviationWithin(logs), 2)));
+        if (keep < kLittle && g + 1 == family_.orders.size()) family_.firstLength = std::exp(levelOfFirst(ratios));
+      }
     std::vector<double> all;
     for (const auto& [place, values] : logs) {
       const double mean = momentsOf(values).mean;
@@ -398,6 +409,35 @@ class FamilyMaker {
       all.assign(1, 1);
     }
     o.start = distributionOf(std::move(all));
+  }
+  /// Where axes have one segment each, sisters tell a bearer's own chance from the level that they inherit: all of them are short against a bearer that is long by chance.
+  static double noiseOfBearers(const std::map<std::pair<std::size_t, SegmentId>, std::vector<std::pair<ArmPlace, double>>>& sisters, const std::map<ArmPlace, std::vector<double>>& ratios) {
+    std::vector<std::vector<double>> groups;
+    for (const auto& [bearer, members] : sisters) {
+      groups.emplace_back();
+      for (const auto& [arm, ratio] : members) groups.back().push_back(ratio - momentsOf(ratios.at(arm)).mean);
+    }
+    return std::min(betweenGroups(groups), deviationWithin(ratios) / std::numbers::sqrt2);
+  }
+  /// Where levels follow from one another, all axes tell that of the first ones.
+  double levelOfFirst(const std::map<ArmPlace, std::vector<double>>& ratios) {
+    std::vector<double> levels;
+    for (const auto& plant : cases_) {
+      std::vector<double> offsets(plant.size(), 0);
+      for (std::size_t a = 0; a < plant.size(); ++a) {
+        const AxisCase& c = plant[a];
+        const auto own = ratios.find(armOf(c));
+        if (c.axis->bearer && own != ratios.end()) offsets[a] = offsets[static_cast<std::size_t>(c.axis->parent->value)] + momentsOf(own->second).mean;
+        levels.push_back(levelOf(c) - offsets[a]);
+      }
+    }
+    return momentsOf(levels).mean;
+  }
+  /// Gives lengths of axes of one segment a chance of their own, and those of the only bearer below them, which are told by nothing else.
+  void giveNoise(std::size_t g, double noise, std::size_t samples) {
+    const Distribution chance{.form = Distribution::Form::Normal, .centre = std::exp(noise * noise / 2), .spread = noise, .values = {}, .samples = samples};
+    const FamilyOrder& first = family_.orders.front();
+    for (std::size_t own = g == 1 && first.segments == first.axes ? 0 : g; own <= g; ++own) family_.orders[own].factor = chance;
   }
   /// Around the mean of each arm.
   static double deviationWithin(const std::map<ArmPlace, std::vector<double>>& groups) {

@@ -196,6 +196,34 @@ void setBirths(PlantSchedule& plant, const Axis& axis, const OrderSchedule& orde
   plant.grows[c.axis] = grows;
 }
 
+/// Steady growth that stops: nearly all axes have as many segments as stages since they began, or else one number, beyond which none goes.
+struct Stopping {
+  int delay = 0;
+  double most = 0;
+};
+std::optional<Stopping> stoppingGrowth(const std::vector<Case>& cases, int earliest) {
+  constexpr double kNearlyAll = 0.8;
+  constexpr std::size_t kEnough = 8, kStopped = 3;
+  std::optional<Stopping> best;
+  std::size_t most = 0;
+  if (cases.size() < kEnough) return best;
+  for (double last = 1; last < furthestOf(cases); last += 1)
+    for (int delay = earliest; delay + last < furthestOf(cases); ++delay) {
+      std::size_t matching = 0, tooLong = 0, stopped = 0;
+      for (const Case& c : cases) {
+        const double possible = std::min(c.stages - delay, last);
+        tooLong += c.segments > possible + 0.5 ? 1 : 0;
+        matching += std::abs(c.segments - possible) < 0.5 ? 1 : 0;
+        stopped += c.stages - delay > last + 0.5 ? 1 : 0;
+      }
+      if (stopped < kStopped || matching <= most) continue;
+      if (static_cast<double>(tooLong) > kTooLong * static_cast<double>(cases.size()) || static_cast<double>(matching) < kNearlyAll * static_cast<double>(cases.size())) continue;
+      most = matching;
+      best = Stopping{delay, last};
+    }
+  return best;
+}
+
 OrderSchedule orderSchedule(int order, const std::vector<Case>& cases, int earliest) {
   OrderSchedule result;
   result.order = order;
@@ -203,14 +231,21 @@ OrderSchedule orderSchedule(int order, const std::vector<Case>& cases, int earli
   if (order == 0) return result;
   const auto delay = steadyDelay(cases, earliest);
   result.steady = delay.has_value();
-  if (delay) result.delay = *delay;
-  else setRate(result, cases);
+  if (delay) {
+    result.delay = *delay;
+  } else if (const auto stopping = stoppingGrowth(cases, earliest)) {
+    result.steady = true;
+    result.delay = stopping->delay;
+    result.lasting = stopping->most + stopping->delay;
+  } else {
+    setRate(result, cases);
+  }
   return result;
 }
 
 bool stillGrows(const OrderSchedule& order, const Case& c) {
   if (c.forks) return false;
-  if (order.steady) return c.segments + 0.5 > c.stages - order.delay;
+  if (order.steady) return c.segments + 0.5 > c.stages - order.delay && (!order.lasting || c.stages < *order.lasting);
   return !order.lasting || c.stages < *order.lasting;
 }
 

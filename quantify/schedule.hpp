@@ -7,7 +7,7 @@
 /// order is *steady* where a good part of its axes reach, with what stands on them, exactly as many segments as stages since they began, `delay` stages after
 /// their bearer: axes that have all their segments still grow, those that fall short have ended (or forked). Where no such rule shows, as on most real
 /// plants, or where axes that rest by chance explain the numbers better, the order grows at a *rate*: the likeliest chance of a segment a stage (binomial; axes that
-/// have none yet are not seen), for `lasting` stages if older branches are no longer than that.
+/// have none yet are not seen), for `lasting` stages if older branches are no longer than that. Steady orders, too, stop where nearly all older axes have one number of segments.
 /// Rates of orders above the leader's are the measured apical control. Source: de Reffye's crown analysis in the wording of Barthelemy and Caraglio 2007.
 
 #include "quantify/phyllotaxis.hpp"

@@ -68,6 +68,14 @@ const Generator kGenerators[] = {
      "w = A(0, 0.1, 0);"
      "A(o, l, i) : o < 2 -> 0.6: S(1, l*normal(1, 0.07)) [rotr(normal(0.8, 0.08))rotu(2.4*i)A(o+1, l*0.65, 0)] A(o, l*0.94, i+1) | 0.35: S(1, l*normal(1, 0.07)) A(o, l*0.94, i+1) | 0.05: S(1, l*normal(1, 0.07)) ;"
      "A(o, l, i) : o == 2 -> 0.9: S(1, l*normal(1, 0.07)) A(o, l*0.94, i+1) | 0.1: S(1, l*normal(1, 0.07)) ;", 11},
+    {"forks whose lengths vary on their own",
+     "w = A(0, 0.1);"
+     "A(0, l) -> 0.8: S(1, l*normal(1, 0.08)) [rotr(normal(0.7, 0.08))rotu(0.3)A(0, l*0.78)] [rotr(normal(0.7, 0.08))rotu(2.3944)A(0, l*0.78)] [rotr(normal(0.7, 0.08))rotu(4.4888)A(0, l*0.78)]"
+     " | 0.2: S(1, l*normal(1, 0.08)) ;", 6},
+    {"shoots of three segments",
+     "w = A(0, 0, 0.05);"
+     "A(0, i, l) -> S(1, l) [rotr(normal(0.95, 0.08))rotu(2.4*i+normal(0, 0.08))A(1, 3, l*0.75)] A(0, i+1, l*0.98) ;"
+     "A(1, n, l) : n > 0 -> S(1, l*normal(1, 0.1)) A(1, n-1, l*0.85) ;", 20},
     {"plants of unlike size",
      "w = A(0, normal(0.1, 0.015));"
      "A(0, l) -> 0.5: S(1, l) [rotr(normal(0.8, 0.05))rotu(random(0, 6.28))A(1, l*0.5)] A(0, l*0.95) | 0.5: S(1, l) A(0, l*0.95) ;"
