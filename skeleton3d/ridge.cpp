@@ -79,7 +79,7 @@ RidgeProfile profileAcross(const Photo& photo, const StemLikelihood& likelihood,
   const int half = static_cast<int>(std::ceil(options.reach_px / kRidgeStep_px));
   profile.reach_px = half * kRidgeStep_px;
   const glm::dvec2 along{-across.y, across.x};
-  const int stride = options.along_px >= 3 ? 2 : 1;
+  const int stride = options.along_px >= 3 ? options.along_px : 1;
   const auto sampled = options.sampling == Sampling::NearestPixel ? nearest : bilinear;
   for (int i = -half; i <= half; ++i) {
     const glm::dvec2 at = centre + i * kRidgeStep_px * across;

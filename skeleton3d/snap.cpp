@@ -31,7 +31,7 @@ double nearness(double middle, double width, double reach_px) {
 /// Where edges are steepest along a profile, the strongest of them, in order.
 std::vector<double> edgesIn(const RidgeProfile& profile) {
   constexpr float kFaintest = 2;  // grey levels
-  constexpr std::size_t kMost = 24;
+  constexpr std::size_t kMost = 14;
   std::vector<float> heights;
   for (const glm::vec4& slope : profile.slope) heights.push_back(glm::length(glm::vec3(slope)));
   std::vector<std::size_t> peaks;
