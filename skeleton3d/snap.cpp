@@ -87,9 +87,9 @@ Found searched(const Photo& photo, glm::dvec2 click, const SnapOptions& options)
 }
 
 /// The band seen `step` px further along, near where it is here.
-std::optional<Band> bandAt(const Photo& photo, const Found& here, double step) {
+std::optional<Band> bandAt(const Photo& photo, const Found& here, double step, Sampling sampling) {
   const double half = 0.5 * here.band.width(), reach = half + 6;
-  const RidgeProfile profile = profileAcross(photo, {}, here.at + step * here.along, acrossOf(here.along), {.reach_px = reach, .blur_px = 1, .along_px = 1});
+  const RidgeProfile profile = profileAcross(photo, {}, here.at + step * here.along, acrossOf(here.along), {.reach_px = reach, .blur_px = 1, .along_px = 1, .sampling = sampling});
   Band band;
   for (double middle = -3; middle <= 3; middle += kRidgeStep_px)
     for (const double scale : {0.85, 1.0, 1.15})
@@ -126,11 +126,11 @@ struct Followed {
 /// Straightens the direction by the band's course to both sides; a tip has only one.
 Followed followed(const Photo& photo, Found found) {
   Followed result;
-  for (int round = 0; round < 2; ++round) {
+  for (const Sampling sampling : {Sampling::NearestPixel, Sampling::BetweenPixels}) {  // roughly, then well
     std::vector<glm::dvec2> middles, widths;
     int sides[2] = {0, 0};
     for (int k = -4; k <= 4; ++k)
-      if (const auto band = bandAt(photo, found, 2.0 * k)) {
+      if (const auto band = bandAt(photo, found, 2.0 * k, sampling)) {
         middles.push_back({2.0 * k, band->middle()});
         widths.push_back({2.0 * k, band->width()});
         if (k != 0) ++sides[k > 0];
