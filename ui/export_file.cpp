@@ -17,11 +17,6 @@ namespace fs = std::filesystem;
 
 constexpr int kVideoFrames = 120;
 
-Result<void> writeBytes(const Result<std::string>& bytes, const fs::path& file) {
-  if (!bytes) return bytes.failure();
-  return writeFile(file, *bytes);
-}
-
 Result<render::PlantMesh> meshNow(const FileQuestion& question) {
   if (!question.growth) return fail(ErrorCode::NoAnswer, "there is no plant to write yet");
   const auto plant = simeco::plantAt(*question.growth, question.time);
@@ -37,7 +32,7 @@ Result<void> writePicture(const FileQuestion& question) {
   const auto mesh = meshNow(question);
   if (!mesh) return mesh.failure();
   const auto image = render::drawPlant(*mesh, lookOf(question));
-  return image ? writeBytes(render::pngBytes(*image), question.file) : image.failure();
+  return image ? render::writePng(question.file, *image) : image.failure();
 }
 
 Result<void> writeVideo(const FileQuestion& question) {
@@ -49,7 +44,7 @@ Result<void> writeVideo(const FileQuestion& question) {
 
 Result<void> writeGlb(const FileQuestion& question) {
   const auto mesh = meshNow(question);
-  return mesh ? writeBytes(render::glbBytes(*mesh, {.metresPerUnit = document::metresPer(question.unit).value_or(1)}), question.file) : mesh.failure();
+  return mesh ? render::writeGlb(*mesh, question.file, {.metresPerUnit = document::metresPer(question.unit).value_or(1)}) : mesh.failure();
 }
 
 Result<void> writePly(const FileQuestion& question) {
@@ -59,12 +54,7 @@ Result<void> writePly(const FileQuestion& question) {
 
 Result<void> writeObj(const FileQuestion& question) {
   const auto mesh = meshNow(question);
-  if (!mesh) return mesh.failure();
-  const fs::path library = fs::path(question.file).replace_extension(".mtl");
-  const auto files = render::objAndMtl(*mesh, library.filename().string());
-  if (!files) return files.failure();
-  if (auto written = writeFile(library, files->mtl); !written) return written;
-  return writeFile(question.file, files->obj);
+  return mesh ? render::writeObj(*mesh, question.file) : mesh.failure();
 }
 
 Result<void> writeText(const FileQuestion& question) { return writeFile(question.file, question.text); }
