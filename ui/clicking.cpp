@@ -37,6 +37,16 @@ NodeId nextWithout(const Project& project, NodeId node, const std::string& view)
   return next == nodes.end() ? node : *next;
 }
 
+/// The node right above on the stem, where it is clicked in other photos alone: there the stem is being clicked anew.
+std::optional<NodeId> goesOnWithout(const Project& project, NodeId node, const std::string& view) {
+  const auto stem = stemOf(project, node);
+  if (!stem) return std::nullopt;
+  const auto& nodes = stemAt(project, *document::stemWithId(project, *stem)).nodes;
+  const auto here = std::find(nodes.begin(), nodes.end(), node);
+  if (here == nodes.end() || here + 1 == nodes.end() || hasClick(project, *(here + 1), view)) return std::nullopt;
+  return *(here + 1);
+}
+
 ClickMeaning place(const Project& project, NodeId node, const PhotoClick& click) {
   return {ClickKind::Place, Step{document::AddClick{node, click.view, click.at}}, {.node = nextWithout(project, node, click.view), .others = {}}, node, stemOf(project, node)};
 }
@@ -59,16 +69,16 @@ ClickMeaning grow(const Project& project, NodeId node, const std::string& view, 
   return {isBranch ? ClickKind::Branch : ClickKind::Extend, std::move(step), {.node = added, .others = {}}, node, stem};
 }
 
-/// Whether the selected node waits for its first branch or its second node: then a click on another stem's line is that, not a node of the line.
-bool waits(const Project& project, NodeId selected, StemId line) {
-  const auto growing = growingStem(project, selected);
-  if (growing) return stemAt(project, *document::stemWithId(project, *growing)).nodes.size() == 1;
-  return stemOf(project, selected) != line;
+/// Whether the selected node waits for a branch, or is the tip of a stem in the making, clicked in one photo alone: then a click on a stem's
+/// line is what goes on there, since any stem may stand before another.
+bool waits(const Project& project, NodeId selected) {
+  constexpr std::size_t kPlaced = 2;
+  return !growingStem(project, selected) || project.nodes[*document::nodeWithId(project, selected)].node.clicks.size() < kPlaced;
 }
 
 std::optional<ClickMeaning> insert(const Project& project, std::optional<NodeId> selected, const PhotoClick& click) {
   const auto place = lineAt(project, click);
-  if (!place || (selected && waits(project, *selected, place->stem))) return std::nullopt;
+  if (!place || (selected && waits(project, *selected))) return std::nullopt;
   return ClickMeaning{ClickKind::Insert, insertAt(project, *place, click), {.node = document::nextNodeId(project), .others = {}}, place->above, place->stem};
 }
 
@@ -164,12 +174,15 @@ ClickMeaning meaningOf(const Project& project, const Selection& selection, const
 
 ClickMeaning meaningAlong(const Project& project, const Selection& selection, const PhotoClick& click, std::span<const PhotoPoint> way) {
   if (!document::viewNamed(project, click.view)) return {};
-  if (click.picking == Picking::PickNodes)
-    if (const auto node = nodeAt(project, click)) return {ClickKind::Select, {}, {.node = node, .others = {}}, node, stemOf(project, *node)};
   const bool selected = selection.node && document::nodeWithId(project, *selection.node);
+  const PhotoPoint* own = selected ? document::clickOf(project, *selection.node, click.view) : nullptr;
+  const bool onItself = own != nullptr && glm::distance(own->px, click.at.px) <= click.reach_px / 9;  // a pixel of the screen or so
+  const auto node = click.picking == Picking::PickNodes ? nodeAt(project, click) : onItself ? selection.node : std::nullopt;
+  if (node) return {ClickKind::Select, {}, {.node = node, .others = {}}, node, stemOf(project, *node)};
   if (selected && !hasClick(project, *selection.node, click.view)) return place(project, *selection.node, click);
   if (click.picking == Picking::PickNodes)
     if (auto inserted = insert(project, selected ? selection.node : std::nullopt, click)) return std::move(*inserted);
+  if (const auto next = selected ? goesOnWithout(project, *selection.node, click.view) : std::nullopt) return place(project, *next, click);
   if (selected) return grow(project, *selection.node, click.view, way);
   if (project.stems.empty()) return beginStem(project, click);
   return {};

@@ -6,7 +6,8 @@
 /// - On a node: it is selected.
 /// - With a selected node that has no click in this photo yet: it gets one, and the next node of its stem that lacks one here is selected.
 /// - On a stem's line between two of its nodes: the stem gets a node there, which is selected, so that a branch can begin at it. Not
-///   where the selected node waits for its stem's second node, or for a branch that may cross another stem.
+///   where the selected node waits for a branch, or is a tip that is clicked in one photo alone: what goes on there may stand before any stem.
+/// - With a selected node whose next one up the stem has no click in this photo: that one gets it.
 /// - With a selected tip: its stem goes on with a new node. With a selected node in the middle: a branch begins at it.
 /// - With nothing selected: the first stem of the plant begins; where there is one already, nothing happens.
 ///
@@ -44,7 +45,7 @@ struct ClickMeaning {
 };
 
 /// PickNodes: a node within `reach_px` is selected, a stem within half of that or of its width gets a node. OnlyPlace: nodes and stems nearby are passed over, to
-/// place a click close to one.
+/// place a click close to one, but not on the selected one.
 enum class Picking { PickNodes, OnlyPlace };
 
 struct PhotoClick {

@@ -269,7 +269,10 @@ Taken clicked(const Pane& pane, PhotoPoint at) {
     meaning = meaningAlong(pane.panel.project, state.selection, onlyPlaced(pane, wire->nodes.back().at), placesOf(*wire));
   } else if (places(meaning)) {
     if (const auto whole = wholeStem(pane, meaning, centre)) return Taken{stepOf(*whole)};
-    if (ridge) meaning = meaningOf(pane.panel.project, state.selection, onlyPlaced(pane, centre));
+    if (ridge) {
+      ClickMeaning snapped = meaningOf(pane.panel.project, state.selection, onlyPlaced(pane, centre));
+      if (places(snapped)) meaning = std::move(snapped);  // not onto the node that it goes on from
+    }
   }
   state.selection = meaning.after;
   return meaning.step.empty() ? Taken{} : Taken{meaning.step};

@@ -53,9 +53,21 @@ TEST(Clicking, ANodeInTheMiddleBranches) {
   EXPECT_EQ(printed(meaning), "add_node 4 front 60 60 ; start_branch 2 2 ; append_node 2 4");
 }
 
+TEST(Clicking, AStemIsClickedAnewInAnotherPhotoFromAnyOfItsNodes) {
+  const Project project = projectOf(std::string(kViews) + "add_node 1 front 0 0 ; add_stem 1 1\nadd_click 1 right 7 0\nadd_node 2 front 0 50 ; append_node 1 2\nadd_node 3 front 0 99 ; append_node 1 3\n");
+  const auto meaning = meaningOf(project, {NodeId(1)}, at("right", 9, 52));
+  EXPECT_EQ(meaning.kind, ClickKind::Place) << "the base is clicked here already; the next node is not";
+  EXPECT_EQ(printed(meaning), "add_click 2 right 9 52");
+  EXPECT_EQ(meaning.after.node, NodeId(3));
+  PhotoClick again = at("right", 7.5, 0.5);
+  again.picking = Picking::OnlyPlace;
+  EXPECT_EQ(meaningOf(project, {NodeId(1)}, again).kind, ClickKind::Select) << "the base itself, once more";
+  EXPECT_EQ(meaningOf(project, {NodeId(1)}, at("front", 50, 10)).kind, ClickKind::Branch) << "here all of it is clicked";
+}
+
 TEST(Clicking, OnAStemsLineItGetsANodeToBranchFrom) {
   const Project project = projectOf(std::string(kViews) + "add_node 1 front 0 0 ; add_stem 1 1\nadd_node 2 front 0 50 ; append_node 1 2\nadd_node 3 front 60 60 ; start_branch 2 2 ; append_node 2 3\n" +
-                                     "add_node 4 front 0 99 ; append_node 1 4\n");
+                                     "add_node 4 front 0 99 ; append_node 1 4\nadd_click 3 right 60 60\n");
   const auto meaning = meaningOf(project, {NodeId(3)}, at("front", 3, 25));
   EXPECT_EQ(meaning.kind, ClickKind::Insert);
   EXPECT_EQ(printed(meaning), "add_node 5 front 3 25 ; insert_node 1 5 2");
@@ -65,8 +77,9 @@ TEST(Clicking, OnAStemsLineItGetsANodeToBranchFrom) {
   PhotoClick past = at("front", 3, 25);
   past.picking = Picking::OnlyPlace;
   EXPECT_EQ(meaningOf(project, {NodeId(3)}, past).kind, ClickKind::Extend) << "a stem can be crossed";
+  EXPECT_EQ(meaningOf(project, {NodeId(4)}, at("front", 3, 25)).kind, ClickKind::Extend) << "a stem in the making goes on";
   EXPECT_EQ(meaningOf(project, {NodeId(2)}, at("front", 50, 58)).kind, ClickKind::Branch) << "a new branch may cross another";
-  EXPECT_EQ(meaningOf(project, {NodeId(2)}, at("front", 3, 25)).kind, ClickKind::Insert) << "but is not laid along its own stem";
+  EXPECT_EQ(meaningOf(project, {NodeId(2)}, at("front", 3, 75)).kind, ClickKind::Branch) << "and stand before its own stem";
   EXPECT_EQ(meaningOf(project, {NodeId(1)}, at("right", 3, 25)).kind, ClickKind::Place) << "a click that is missing comes first";
 }
 
