@@ -306,12 +306,21 @@ class Printer {
     }
     afterColon(p, place);
     out_ += " ->";
-    for (std::size_t i = 0; i < p.successors.size(); ++i) {
-      if (i > 0) out_ += " |";
-      successor(p, p.successors[i], place);
-    }
+    successors(p, place);
     out_ += " ;";
     endLine(p.comments.trailing);
+  }
+  /// One beside its predecessor, several below it, each on a line.
+  void successors(const Production& p, ConditionPlace place) {
+    if (p.successors.size() == 1) return successor(p, p.successors.front(), place);
+    ++depth_;
+    for (std::size_t i = 0; i < p.successors.size(); ++i) {
+      out_ += '\n';
+      indent();
+      out_ += i == 0 ? " " : "|";
+      successor(p, p.successors[i], place);
+    }
+    --depth_;
   }
   void afterColon(const Production& p, ConditionPlace place) {
     const bool condition = p.condition && place == ConditionPlace::AfterColon;
