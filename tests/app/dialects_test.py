@@ -108,7 +108,7 @@ class Dialects(unittest.TestCase):
             folder, project = pathlib.Path(folder), SOURCE / "samples/aspen/aspen.axil"
             (folder / "aspen.json").write_bytes(subprocess.run([AXIL, "skeleton", project], capture_output=True, check=True).stdout)
             texts = [subprocess.run([AXIL, "emit", plant, "--kind", "structured"], capture_output=True, check=True).stdout for plant in (project, folder / "aspen.json")]
-            rules = [[line for line in text.decode().split("\n") if " -> " in line] for text in texts]
+            rules = [[line for line in text.decode().split("\n") if " ->" in line] for text in texts]
             self.assertEqual(len(rules[0]), 4)
             self.assertEqual(len(rules[0]), len(rules[1]))
             wrong = subprocess.run([AXIL, "emit", folder / "none.json"], capture_output=True)

@@ -212,8 +212,10 @@ class Snap(Drawn):
         self.assertLess(after[middle], 0.5 * before[middle])
         radii = [n["radius"] for n in json.loads(snapped[1])["nodes"] if n.get("radius")]
         self.assertGreater(len(radii), 10)
-        for r in radii:
-            self.assertAlmostEqual(r / (3 * DISTANCE / FOCAL), 1, delta=0.25)
+        off = sorted(abs(r / (3 * DISTANCE / FOCAL) - 1) for r in radii)
+        print(f"radii of stems 6 px wide: {100 * off[len(off) // 2]:.1f} % off in the middle, {100 * off[-1]:.1f} % at most")
+        self.assertLess(off[len(off) // 2], 0.1)
+        self.assertLess(off[-1], 0.3)
 
 
 if __name__ == "__main__":
