@@ -1,6 +1,7 @@
 #include "ui/proposals.hpp"
 
 #include "document/lookup.hpp"
+#include "ui/clicking.hpp"
 
 #include <algorithm>
 
@@ -63,14 +64,8 @@ std::size_t placeOf(const std::vector<skeleton3d::StemPlace>& line, std::size_t 
   return static_cast<std::size_t>(nearest - line.begin());
 }
 
-double distanceTo(PhotoPoint p, const std::pair<PhotoPoint, PhotoPoint>& segment) {
-  const glm::dvec2 along = segment.second.px - segment.first.px, to = p.px - segment.first.px;
-  const double length2 = glm::dot(along, along);
-  return glm::length(to - along * (length2 > 0 ? std::clamp(glm::dot(to, along) / length2, 0.0, 1.0) : 0.0));
-}
-
 bool isTaken(const std::vector<PhotoPoint>& line, const std::vector<std::pair<PhotoPoint, PhotoPoint>>& taken) {
-  const auto near = std::count_if(line.begin(), line.end(), [&](PhotoPoint p) { return std::any_of(taken.begin(), taken.end(), [&](const auto& s) { return distanceTo(p, s) < kTaken_px; }); });
+  const auto near = std::count_if(line.begin(), line.end(), [&](PhotoPoint p) { return std::any_of(taken.begin(), taken.end(), [&](const auto& s) { return distanceToSegment(p.px, s.first.px, s.second.px) < kTaken_px; }); });
   return static_cast<double>(near) > kTakenShare * static_cast<double>(line.size());
 }
 

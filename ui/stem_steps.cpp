@@ -2,8 +2,6 @@
 
 #include "document/lookup.hpp"
 
-#include <algorithm>
-
 namespace axil::ui {
 namespace {
 
