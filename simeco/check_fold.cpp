@@ -1,6 +1,7 @@
 #include "simeco/check_fold.hpp"
 
 #include "base/overloaded.hpp"
+#include "simeco/engine_arithmetic.hpp"
 #include "simeco/vocabulary.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ double valueOf(BinaryOp op, double a, double b) {
     case BinaryOp::Subtract: return a - b;
     case BinaryOp::Multiply: return a * b;
     case BinaryOp::Divide: return a / b;
-    case BinaryOp::Remainder: return std::fmod(a, b);
+    case BinaryOp::Remainder: return remainder(a, b);
     case BinaryOp::Power: return std::pow(a, b);
     case BinaryOp::Less: return a < b ? 1 : 0;
     case BinaryOp::LessEqual: return a <= b ? 1 : 0;
@@ -31,6 +32,9 @@ double valueOf(BinaryOp op, double a, double b) {
   }
   return 0;
 }
+
+/// A division by zero ends the derivation; it is no value.
+bool failsOn(BinaryOp op, double b) { return (op == BinaryOp::Divide && b == 0) || (op == BinaryOp::Remainder && truncated(b) == 0); }
 
 bool compares(BinaryOp op) {
   switch (op) {
@@ -62,7 +66,7 @@ class Folder {
                                  [&](const Binary& n) -> Value {
                                    const Value a = at(n.left, depth + 1);
                                    const Value b = at(n.right, depth + 1);
-                                   return a && b ? Value(valueOf(n.op, *a, *b)) : std::nullopt;
+                                   return a && b && !failsOn(n.op, *b) ? Value(valueOf(n.op, *a, *b)) : std::nullopt;
                                  },
                                  [&](const Chain& n) -> Value { return chain(n, depth); },
                                  [&](const Conditional& n) -> Value {
