@@ -213,18 +213,20 @@ Taken editingButtons(const Panel& panel) {
   return taken;
 }
 
+std::string said(const Panel& panel, const std::string& message) { return panel.texts.translated(message, panel.state.language); }
+
 void diagnosticsBelow(const Panel& panel, const GrownGrammar* grown) {
   if (grown == nullptr) return;
   ImGui::PushFont(font(Face::Small));
   for (std::size_t i = 0; i < std::min<std::size_t>(grown->diagnostics.size(), 50); ++i) {
     const Diagnostic& d = grown->diagnostics[i];
     const SourcePlace place = placeOf(grown->text, d.span.begin);
-    const std::string line = std::to_string(place.line) + ":" + std::to_string(place.column) + "  " + d.message + (d.hint.empty() ? "" : "  (" + d.hint + ")") + "##d" + std::to_string(i);
+    const std::string line = std::to_string(place.line) + ":" + std::to_string(place.column) + "  " + said(panel, d.message) + (d.hint.empty() ? "" : "  (" + said(panel, d.hint) + ")") + "##d" + std::to_string(i);
     ImGui::PushStyleColor(ImGuiCol_Text, d.severity == Severity::Error ? panel.palette.error : panel.palette.warning);
     if (ImGui::Selectable(line.c_str())) panel.state.wantedLine = place.line - 1;
     ImGui::PopStyleColor();
   }
-  if (grown->diagnostics.empty() && grown->trouble) words(panel, grown->trouble->message, panel.palette.error);
+  if (grown->diagnostics.empty() && grown->trouble) words(panel, said(panel, grown->trouble->message), panel.palette.error);
   if (grown->diagnostics.empty() && !grown->trouble) words(panel, panel.t("diagnostics_none"), panel.palette.quiet);
   ImGui::PopFont();
 }

@@ -8,22 +8,36 @@
 namespace axil::ui {
 namespace {
 
-using Filling = std::map<char, std::string>;  // what stands at {1}, {2}
+/// What stands at {1}, {2} of a message; a name in quotes is one that the user or a file gave, which no table may reword.
+struct Said {
+  std::string text;
+  bool isName = false;
+};
+using Filling = std::map<char, Said>;
+
+/// Where the next {1} to {9} of a pattern begins; other braces are a grammar's own.
+std::size_t nextPlace(std::string_view pattern) {
+  for (std::size_t at = pattern.find('{'); at != std::string_view::npos; at = pattern.find('{', at + 1))
+    if (at + 2 < pattern.size() && pattern[at + 1] >= '1' && pattern[at + 1] <= '9' && pattern[at + 2] == '}') return at;
+  return std::string_view::npos;
+}
 
 /// What `message` has at the places of `pattern`, where it is that message. A place takes as little as it can.
 std::optional<Filling> fillingOf(std::string_view pattern, std::string_view message) {
   Filling filling;
   while (true) {
-    const std::size_t place = pattern.find('{');
+    const std::size_t place = nextPlace(pattern);
     if (message.substr(0, place) != pattern.substr(0, place)) return std::nullopt;
     if (place == std::string_view::npos) return filling;
     const char number = pattern[place + 1];
+    const bool isName = place > 0 && (pattern[place - 1] == '\'' || pattern[place - 1] == '"');
     message.remove_prefix(place);
     pattern.remove_prefix(place + 3);
-    const std::string_view next = pattern.substr(0, pattern.find('{'));
-    const std::size_t end = next.empty() ? message.size() : next.size() == pattern.size() ? message.rfind(next) : message.find(next);
+    const std::size_t following = nextPlace(pattern);
+    const std::string_view next = pattern.substr(0, following);
+    const std::size_t end = next.empty() ? message.size() : following == std::string_view::npos ? message.rfind(next) : message.find(next);
     if (end == std::string_view::npos || end == 0) return std::nullopt;
-    filling[number] = message.substr(0, end);
+    filling[number] = {std::string(message.substr(0, end)), isName};
     message.remove_prefix(end);
   }
 }
@@ -59,7 +73,7 @@ std::string Texts::translated(std::string_view message, Language language) const
     const auto filling = fillingOf(known.english, message);
     if (!filling) continue;
     std::string text = language == Language::TraditionalChinese ? known.traditional : known.simplified;
-    for (const auto& [number, said] : *filling) text = filled(text, {{std::string_view(&number, 1), translated(said, language)}});
+    for (const auto& [number, said] : *filling) text = filled(text, {{std::string_view(&number, 1), said.isName ? said.text : translated(said.text, language)}});
     return text;
   }
   return std::string(message);

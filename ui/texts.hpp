@@ -31,7 +31,7 @@ class Texts {
   /// The words under `key`, zero-terminated.
   [[nodiscard]] const char* operator()(std::string_view key, Language language) const;
   /// A message of another room, which is English, in `language`: by the table of messages, whose rows have {1}, {2} where a message has
-  /// names and numbers. A message that the table does not have stays as it is.
+  /// names, numbers or other messages; what stands in quotes is a name and stays. A message that the table does not have stays as it is.
   [[nodiscard]] std::string translated(std::string_view message, Language language) const;
   [[nodiscard]] bool has(std::string_view key) const { return rows_.find(key) != rows_.end(); }
   /// All characters of all languages: what a font must have.
