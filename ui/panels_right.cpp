@@ -129,6 +129,7 @@ Taken selectionFacts(const Panel& panel) {
 }
 
 void plantFacts(const Panel& panel) {
+  if (panel.project.views.empty() && panel.project.nodes.empty()) return;  // nothing to count yet: the middle says how to begin
   heading(panel, "plant");
   fact(panel, panel.t("nodes"), std::to_string(panel.project.nodes.size()));
   fact(panel, panel.t("way_stems"), std::to_string(panel.project.stems.size()));

@@ -30,14 +30,17 @@ std::optional<Filling> fillingOf(std::string_view pattern, std::string_view mess
     if (message.substr(0, place) != pattern.substr(0, place)) return std::nullopt;
     if (place == std::string_view::npos) return filling;
     const char number = pattern[place + 1];
-    const bool isName = place > 0 && (pattern[place - 1] == '\'' || pattern[place - 1] == '"');
+    const char quote = place > 0 ? pattern[place - 1] : ' ';
+    const bool isName = quote == '\'' || quote == '"';
     message.remove_prefix(place);
     pattern.remove_prefix(place + 3);
     const std::size_t following = nextPlace(pattern);
     const std::string_view next = pattern.substr(0, following);
     const std::size_t end = next.empty() ? message.size() : following == std::string_view::npos ? message.rfind(next) : message.find(next);
     if (end == std::string_view::npos || end == 0) return std::nullopt;
-    filling[number] = {std::string(message.substr(0, end)), isName};
+    const std::string_view said = message.substr(0, end);
+    if (isName && said.find(quote) != std::string_view::npos) return std::nullopt;  // it ran on over the end of the name
+    filling[number] = {std::string(said), isName};
     message.remove_prefix(end);
   }
 }
