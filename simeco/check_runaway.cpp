@@ -17,11 +17,12 @@ namespace {
 constexpr std::size_t kMostWork = 4'000'000;  ///< additions; a check must stay quick
 constexpr std::size_t kMostSymbols = 20'000;
 
-/// What a module is to the rules, as far as it is written.
+/// What a module is to the rules, as far as it is written. Compared number first: a measured plant's modules are one letter with a
+/// thousand numbers.
 struct SymbolKey {
-  std::string letter;
-  std::size_t arguments = 0;
   std::optional<double> number = {};  ///< literal first argument
+  std::size_t arguments = 0;
+  std::string letter;
   friend auto operator<=>(const SymbolKey&, const SymbolKey&) = default;
 };
 
@@ -100,13 +101,13 @@ class Estimate {
 
  private:
   [[nodiscard]] SymbolKey keyOf(const Module& m) const {
-    SymbolKey key{m.letter, m.arguments.size(), {}};
+    SymbolKey key{{}, m.arguments.size(), m.letter};
     if (grammar_.language == Language::SimEco && !m.arguments.empty())
       if (const auto* n = std::get_if<Number>(&grammar_.at(m.arguments[0]).node)) key.number = n->value;
     return key;
   }
   void firstNumbered(const SymbolKey& key, const Production* production) {
-    const auto [found, isNew] = numbered_.try_emplace({key.letter, key.arguments, {}}, production);
+    const auto [found, isNew] = numbered_.try_emplace({{}, key.arguments, key.letter}, production);
     if (!isNew) found->second = std::min(found->second, production);
   }
   std::size_t symbolOf(const Module& m) {
@@ -121,7 +122,7 @@ class Estimate {
   }
   /// The first rule for the symbol, when it certainly fires. All rules stand in one row, so the earlier one has the lower address.
   [[nodiscard]] const Production* ruleFor(const SymbolKey& key) const {
-    const SymbolKey any{key.letter, key.arguments, {}};
+    const SymbolKey any{{}, key.arguments, key.letter};
     const Production* rule = ruleIn(first_, any);
     if (key.number) {
       const Production* exact = ruleIn(first_, key);
