@@ -196,7 +196,7 @@ float chip(ImDrawList& list, ImVec2 at, std::string_view text, Colour ground, Co
 }
 
 void drawMark(ImDrawList& list, Mark mark, ImVec2 at, float r, Colour colour) {
-  const Colour rim = rgb(0x101010, 200);
+  const Colour rim = rgb(0x101010, 200 * (colour >> IM_COL32_A_SHIFT) / 255);  // a mark that stands back has no black edge
   switch (mark) {
     case Mark::Disc:
       list.AddCircleFilled(at, r + 1.2f, rim, 20);
