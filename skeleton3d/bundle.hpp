@@ -130,9 +130,11 @@ struct Scatter {
 [[nodiscard]] Scatter robustScatterOf(std::span<const View> views, std::span<const ClickedNode> nodes);
 
 /// Clicks that do not fit, judged node by node in `views`, the bundle's cameras or better ones. See SuspectClick.
-[[nodiscard]] std::vector<SuspectClick> suspectsOf(const Bundle& bundle, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems);
-[[nodiscard]] std::vector<SuspectClick> suspectsAmong(const std::vector<ClickedNode>& nodes, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems);
-[[nodiscard]] std::vector<SuspectClick> suspectsIn(const ClickedNode& node, const std::vector<View>& views, double click_px);
+[[nodiscard]] std::vector<SuspectClick> suspectsOf(const Bundle& bundle, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems,
+                                                   const StemEvidence* evidence = nullptr);
+/// `evidence`: what photos say, or null.
+[[nodiscard]] std::vector<SuspectClick> suspectsAmong(const std::vector<ClickedNode>& nodes, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems,
+                                                      const StemEvidence* evidence = nullptr);
 /// The bundle without the suspects that withoutSuspects drops.
 [[nodiscard]] Bundle withoutSuspectsIn(Bundle bundle, const std::vector<SuspectClick>& suspects);
 

@@ -7,8 +7,6 @@
 namespace axil::skeleton3d::detail {
 namespace {
 
-constexpr std::size_t kFewestSharedNodes = 4;
-
 Result<void> checkHints(const BundleCamera& camera) {
   const auto& name = camera.view.name;
   const auto finite = [](glm::dvec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); };

@@ -73,7 +73,7 @@ SeenRod bestTurned(const std::vector<SeenLength>& seen, const std::vector<View>&
 /// One click that contradicts the others is left out, where there are others enough.
 ClickedNode withoutWrongClick(ClickedNode end, const std::vector<View>& views, double click_px) {
   if (end.clicks.size() < 3) return end;
-  const auto suspects = suspectsIn(end, views, click_px);
+  const auto suspects = suspectsAmong({end}, views, click_px, {});
   const auto worst = std::max_element(suspects.begin(), suspects.end(), [](const SuspectClick& a, const SuspectClick& b) { return a.chance < b.chance; });
   if (worst != suspects.end()) end.clicks.erase(worst->view);
   return end;

@@ -1,5 +1,6 @@
 #include "skeleton3d/bundle.hpp"
 #include "skeleton3d/camera.hpp"
+#include "skeleton3d/click_readings.hpp"
 #include "skeleton3d/solve.hpp"
 #include "skeleton3d/solve_all.hpp"
 #include "skeleton3d/statistics.hpp"
@@ -15,8 +16,8 @@ namespace axil::skeleton3d::detail {
 namespace {
 
 constexpr double kLeastClick_px = 0.3;      // no one clicks better; below it rounding would be suspected
-constexpr double kTwoAlone = 2.5;           // times the limit, in pixels: two clicks that nothing can replace lose a node its place
-constexpr double kWorthNaming = 0.05;       // of being the wrong one
+constexpr double kWorthNaming = 0.15;       // of being wrong
+constexpr double kSure = 0.6;               // of a reading that may give a node of one right click its place
 
 ClickedNode clickedAgain(const BundlePoint& point, const std::vector<View>& views) {
   ClickedNode node{point.id, {}, std::nullopt};
@@ -42,63 +43,41 @@ std::vector<std::optional<Fit>> fittedAll(std::span<const ClickedNode> nodes, co
   return fits;
 }
 
-std::optional<Fit> fitted(const ClickedNode& node, const std::vector<View>& views, double click_px) { return fittedAll(std::span(&node, 1), views, click_px).front(); }
-
 int freedomOf(const ClickedNode& node) { return 2 * static_cast<int>(node.clicks.size()) - 3; }
 bool fits(const ClickedNode& node, const Fit& fit) { return fit.squares <= chiSquaredLimit(freedomOf(node)); }
 
-double offFrom(const Fit& fit, const PhotoPoint& click, const std::string& view, const std::vector<View>& views) {
-  return glm::length(project(findView(views, view)->camera, fit.at).px - click.px);
+double typicalPixel(std::span<const View> views, const std::map<NodeId, glm::dvec3>& places) {
+  std::vector<double> sizes;
+  for (const auto& [id, at] : places)
+    for (const View& view : views)
+      if (isInFront(view.camera, {at}))
+        sizes.push_back(view.camera.model == CameraModel::Orthographic ? 1 / view.camera.scale_px_per_unit : toView(view.camera, {at}).at.z / view.camera.focal_px->x);
+  return medianOf(std::move(sizes));
 }
 
-/// A click together with how well, without it, the others agree and the node continues its stems.
-struct Accused {
-  std::string view;
-  double off_px = 0;
-  double likelihood = 0;  ///< its logarithm
-  bool leaps = false;     ///< without it the node is far from where its stems go on
-};
-
-std::vector<Accused> accusedOf(const ClickedNode& node, const std::vector<View>& views, double click_px, const StemCourse& course) {
-  std::vector<Accused> accused;
-  if (node.clicks.size() < 3) return accused;
-  for (const auto& [view, click] : node.clicks) {
-    ClickedNode others = node;
-    others.clicks.erase(view);
-    const auto fit = fitted(others, views, click_px);
-    if (fit && fits(others, *fit)) accused.push_back({view, offFrom(*fit, click, view, views), likelihoodAt(course, node.id, fit->at.at) - fit->squares / 2, leapsAt(course, node.id, fit->at.at)});
-  }
-  return accused;
-}
-
-/// Of clicks that could each be the wrong one, how likely each is: by how well everything agrees without it.
-std::vector<SuspectClick> weighed(NodeId node, const std::vector<Accused>& accused) {
-  double most = std::numeric_limits<double>::lowest(), sum = 0;
-  for (const Accused& one : accused) most = std::max(most, one.likelihood);
-  for (const Accused& one : accused) sum += std::exp(one.likelihood - most);
+/// The clicks that are wrong in the likely readings of a node, each with its chance.
+std::vector<SuspectClick> named(const ClickedNode& node, const std::vector<View>& views, const std::vector<ClickReading>& readings) {
+  if (readings.empty()) return {};
+  const ClickReading& likeliest = readings.front();
   std::vector<SuspectClick> suspects;
-  for (const Accused& one : accused)
-    if (const double chance = std::exp(one.likelihood - most) / sum; chance >= kWorthNaming) suspects.push_back({node, one.view, one.off_px, chance});
+  for (const auto& [view, click] : node.clicks) {
+    double chance = 0;
+    for (const ClickReading& reading : readings)
+      if (!reading.right.contains(view)) chance += reading.weight;
+    if (chance < kWorthNaming) continue;
+    const glm::dvec2 rather = project(findView(views, view)->camera, {likeliest.at}).px;
+    SuspectClick suspect{node.id, view, glm::length(rather - click.px), chance, std::nullopt};
+    if (likeliest.weight >= kSure && likeliest.right.size() == 1 && !likeliest.right.contains(view)) suspect.rather = PhotoPoint{rather};
+    suspects.push_back(suspect);
+  }
   return suspects;
 }
 
-/// No single click explains it: all are suspect, the further off the more.
-std::vector<SuspectClick> allOf(const ClickedNode& node, const Fit& fit, const std::vector<View>& views) {
-  std::vector<SuspectClick> suspects;
-  double sum = 0;
-  for (const auto& [view, click] : node.clicks) {
-    suspects.push_back({node.id, view, offFrom(fit, click, view, views), 0});
-    sum += suspects.back().off_px;
-  }
-  for (SuspectClick& suspect : suspects) suspect.chance = sum > 0 ? suspect.off_px / sum : 0;
-  return suspects;
-}
-
-std::vector<SuspectClick> suspectsWhere(const ClickedNode& node, const std::optional<Fit>& fit, const std::vector<View>& views, double click_px, const StemCourse& course) {
-  if (!fit || fits(node, *fit) || (node.clicks.size() == 2 && fit->squares <= kTwoAlone * kTwoAlone * chiSquaredLimit(1))) return {};
-  const auto accused = accusedOf(node, views, click_px, course);
-  const bool twoWrong = std::all_of(accused.begin(), accused.end(), [](const Accused& one) { return one.leaps; });  // that agree by chance
-  return twoWrong ? allOf(node, *fit, views) : weighed(node.id, accused);
+/// A node is looked at more closely where its clicks do not meet, and, with photos that can tell, where its stem leaps.
+bool isOdd(const ClickedNode& node, const std::optional<Fit>& fit, const Grounds& grounds) {
+  constexpr double kLeap = 3;
+  if (node.clicks.size() < 2 || !fit) return false;
+  return !fits(node, *fit) || (grounds.evidence != nullptr && leapsAt(grounds.course, node.id, fit->at.at, kLeap));
 }
 
 std::map<NodeId, glm::dvec3> placesOf(const std::vector<ClickedNode>& nodes, const std::vector<std::optional<Fit>>& fits) {
@@ -108,29 +87,43 @@ std::map<NodeId, glm::dvec3> placesOf(const std::vector<ClickedNode>& nodes, con
   return places;
 }
 
-}  // namespace
-
-std::vector<SuspectClick> suspectsIn(const ClickedNode& node, const std::vector<View>& views, double click_px) {
-  const double scatter_px = std::max(click_px, kLeastClick_px);
-  return suspectsWhere(node, fitted(node, views, scatter_px), views, scatter_px, {});
-}
-
-std::vector<SuspectClick> suspectsOf(const Bundle& bundle, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems) {
-  std::vector<ClickedNode> nodes;
-  for (std::size_t p = 0; p < bundle.nodes; ++p) nodes.push_back(clickedAgain(bundle.points[p], views));
-  return suspectsAmong(nodes, views, click_px, stems);
-}
-
-std::vector<SuspectClick> suspectsAmong(const std::vector<ClickedNode>& nodes, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems) {
-  const double scatter_px = std::max(click_px, kLeastClick_px);
-  const auto fits = fittedAll(nodes, views, scatter_px);
-  const StemCourse course = stemCourseOf(stems, placesOf(nodes, fits));
+/// The clicks of all nodes, judged by where the others are; those move as their own wrong clicks are found.
+std::vector<SuspectClick> judgedAll(const std::vector<ClickedNode>& nodes, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems,
+                                    const StemEvidence* evidence) {
+  constexpr int kRounds = 3;
+  const auto fits = fittedAll(nodes, views, click_px);
+  auto places = placesOf(nodes, fits);
   std::vector<SuspectClick> suspects;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto own = suspectsWhere(nodes[i], fits[i], views, scatter_px, course);
-    suspects.insert(suspects.end(), own.begin(), own.end());
+  for (int round = 0; round < kRounds; ++round) {
+    const StemCourse course = stemCourseOf(stems, places, click_px * typicalPixel(views, places));
+    const Grounds grounds{views, click_px, course, evidence};
+    suspects.clear();
+    bool moved = false;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (!isOdd(nodes[i], fits[i], grounds)) continue;
+      const auto readings = readingsOf(nodes[i], grounds);
+      const auto own = named(nodes[i], views, readings);
+      suspects.insert(suspects.end(), own.begin(), own.end());
+      if (readings.empty()) continue;
+      moved = moved || glm::length(places[nodes[i].id] - readings.front().at) > course.noise;
+      places[nodes[i].id] = readings.front().at;
+    }
+    if (!moved) break;
   }
   return suspects;
+}
+
+}  // namespace
+
+std::vector<SuspectClick> suspectsOf(const Bundle& bundle, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems, const StemEvidence* evidence) {
+  std::vector<ClickedNode> nodes;
+  for (std::size_t p = 0; p < bundle.nodes; ++p) nodes.push_back(clickedAgain(bundle.points[p], views));
+  return suspectsAmong(nodes, views, click_px, stems, evidence);
+}
+
+std::vector<SuspectClick> suspectsAmong(const std::vector<ClickedNode>& nodes, const std::vector<View>& views, double click_px, std::span<const ClickedStem> stems,
+                                        const StemEvidence* evidence) {
+  return judgedAll(nodes, views, std::max(click_px, kLeastClick_px), stems, evidence);
 }
 
 Bundle withoutSuspectsIn(Bundle bundle, const std::vector<SuspectClick>& suspects) {
@@ -142,7 +135,10 @@ Bundle withoutSuspectsIn(Bundle bundle, const std::vector<SuspectClick>& suspect
   for (std::size_t p = 0; p < bundle.points.size(); ++p) {
     const auto named = std::count_if(suspects.begin(), suspects.end(), [&](const SuspectClick& s) { return s.node == bundle.points[p].id; });
     const bool anyTrusted = static_cast<std::size_t>(named) < bundle.points[p].clicks.size();  // else it must not pull at the cameras
-    std::erase_if(bundle.points[p].clicks, [&](const BundleClick& click) { return !anyTrusted || !kept[p].clicks.contains(views[click.view].name); });
+    std::erase_if(bundle.points[p].clicks, [&](const BundleClick& click) {
+      const auto still = kept[p].clicks.find(views[click.view].name);
+      return !anyTrusted || still == kept[p].clicks.end() || still->second.px != click.px;
+    });
   }
   std::erase_if(bundle.points, [](const BundlePoint& point) { return point.clicks.size() < 2; });
   bundle.nodes = bundle.points.size();

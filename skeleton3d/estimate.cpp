@@ -80,7 +80,7 @@ struct Sifted {
 
 Sifted siftedWith(const Bundle& all, const Bundle& fitted, const EstimateOptions& options) {
   const double click_px = clickOr(options, detail::robustScatterOf(fitted).click_px);
-  Sifted sifted{detail::suspectsOf(all, detail::viewsOf(fitted), click_px, options.stems), all, click_px};
+  Sifted sifted{detail::suspectsOf(all, detail::viewsOf(fitted), click_px, options.stems, options.evidence.get()), all, click_px};
   sifted.kept.cameras = fitted.cameras;
   sifted.kept = detail::withoutSuspectsIn(std::move(sifted.kept), sifted.suspects);
   return sifted;
@@ -160,7 +160,7 @@ Result<EstimatedCameras> judged(std::span<const View> views, std::span<const Cli
   std::vector<ClickedNode> shared;
   std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(shared), [](const ClickedNode& node) { return node.clicks.size() > 1; });
   const double click_px = clickOr(options, detail::robustScatterOf(views, shared).click_px);
-  known.suspects = detail::suspectsAmong(shared, known.views, click_px, options.stems);
+  known.suspects = detail::suspectsAmong(shared, known.views, click_px, options.stems, options.evidence.get());
   constexpr double kFarOff_px = 6;  // no one clicks so badly
   if (click_px > kFarOff_px || suspectNodes(known.suspects) > kMostSuspect * static_cast<double>(shared.size()))
     if (const std::string better = detail::betterReading(views, shared); !better.empty()) return misread(better);
@@ -219,13 +219,23 @@ Result<EstimatedCameras> estimateCameras(std::span<const View> views, const std:
 }
 
 std::vector<ClickedNode> withoutSuspects(std::span<const ClickedNode> nodes, std::span<const SuspectClick> suspects) {
-  std::vector<SuspectClick> likeliestFirst(suspects.begin(), suspects.end());
-  std::stable_sort(likeliestFirst.begin(), likeliestFirst.end(),
-                   [](const SuspectClick& a, const SuspectClick& b) { return a.chance != b.chance ? a.chance > b.chance : a.off_px > b.off_px; });
+  constexpr double kLikely = 0.5;
+  std::map<NodeId, std::vector<const SuspectClick*>> byNode;
+  for (const SuspectClick& suspect : suspects) byNode[suspect.node].push_back(&suspect);
   std::vector<ClickedNode> kept(nodes.begin(), nodes.end());
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    for (const SuspectClick& suspect : likeliestFirst)
-      if (suspect.node == kept[i].id && (kept[i].clicks.size() > 2 || nodes[i].clicks.size() <= 2)) kept[i].clicks.erase(suspect.view);
+  for (ClickedNode& node : kept) {
+    const auto found = byNode.find(node.id);
+    if (found == byNode.end()) continue;
+    std::vector<const SuspectClick*>& own = found->second;
+    std::stable_sort(own.begin(), own.end(), [](const SuspectClick* a, const SuspectClick* b) { return a->chance > b->chance; });
+    for (const SuspectClick* suspect : own) {
+      if (suspect != own.front() && suspect->chance < kLikely) break;
+      if (suspect->rather)
+        node.clicks[suspect->view] = *suspect->rather;
+      else
+        node.clicks.erase(suspect->view);
+    }
+  }
   return kept;
 }
 

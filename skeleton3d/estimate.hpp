@@ -23,12 +23,17 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace axil::skeleton3d {
+
+namespace detail {
+struct StemEvidence;
+}
 
 struct EstimateOptions {
   std::optional<double> click_px = std::nullopt;  ///< standard deviation of a click; none: found from the clicks
@@ -44,6 +49,8 @@ struct EstimateOptions {
   std::vector<ClickedStem> stems = {};
   /// Centre lines read beside clicks: each fixes its node across its stem far better than the click does, and so the cameras.
   RidgeReadings centreLines = {};
+  /// What the photos say of where stems are (photographed.hpp), to tell wrong clicks from right ones; nothing: they are not at hand.
+  std::shared_ptr<const detail::StemEvidence> evidence = nullptr;
 };
 
 /// How one camera was found.
@@ -68,7 +75,9 @@ struct SuspectClick {
   NodeId node;
   std::string view;
   double off_px = 0;  ///< from where the other clicks put the node (or, all being named, from the best place)
-  double chance = 1;  ///< of being the wrong one of its node
+  double chance = 1;  ///< of being wrong
+  /// Where it was rather meant to be, where only one click of its node is right: by that one, the stem's course and the photos.
+  std::optional<PhotoPoint> rather = std::nullopt;
 
   friend bool operator==(const SuspectClick&, const SuspectClick&) = default;
 };
@@ -81,6 +90,9 @@ struct EstimatedCameras {
   std::vector<std::string> notes;      ///< what a person should look at, one sentence each
 };
 
+/// A camera that is not known is estimated from this many nodes at least that are clicked in its view and another.
+inline constexpr std::size_t kFewestSharedNodes = 4;
+
 /// Fails with NoAnswer or BadInput, saying for which view: a name without a nominal direction, unknown photo size, fewer
 /// than four nodes shared with other views, no origin in any view, no known length (or one that is not above zero, or
 /// clicked in one place), views that do not fit together (turned by more than 45 degrees from their names); where they would fit exchanged,
@@ -88,8 +100,8 @@ struct EstimatedCameras {
 [[nodiscard]] Result<EstimatedCameras> estimateCameras(std::span<const View> views, const std::map<std::string, UnknownCameraHints>& hints,
                                                        std::span<const ClickedNode> nodes, const EstimateOptions& options = {});
 
-/// The nodes without their suspect clicks, the likeliest first, as long as two clicks are left of a node. A node of two
-/// clicks that do not agree keeps none: it has no place.
+/// The nodes without the suspect clicks that are more likely wrong than not, or, where none is, without the likeliest one. Where only one
+/// click of a node is right the others go to where they were rather meant to be; a node without that has no place.
 [[nodiscard]] std::vector<ClickedNode> withoutSuspects(std::span<const ClickedNode> nodes, std::span<const SuspectClick> suspects);
 
 }  // namespace axil::skeleton3d

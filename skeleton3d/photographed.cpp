@@ -1,5 +1,8 @@
 #include "skeleton3d/photographed.hpp"
 
+#include "skeleton3d/solve_all.hpp"
+#include "skeleton3d/stem_evidence.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -65,6 +68,19 @@ void giveSpread(const std::vector<SnappedNode>& nodes, Uncertainty& uncertainty)
       if (spread.id == node.id) spread.at = node.at, spread.own = node.covariance;
 }
 
+/// What the photos say of where stems are, learned from the nodes without suspect clicks.
+std::shared_ptr<const detail::StemEvidence> evidenceFor(const Task& task, const EstimatedCameras& cameras) {
+  std::vector<ClickedNode> trusted;
+  for (const ClickedNode& node : task.nodes)
+    if (node.clicks.size() > 1 && std::none_of(cameras.suspects.begin(), cameras.suspects.end(), [&](const SuspectClick& s) { return s.node == node.id; })) trusted.push_back(node);
+  std::map<NodeId, glm::dvec3> places;
+  const auto solved = detail::solveAll(cameras.views, trusted, {.click_px = cameras.uncertainty.click_px}, "plant units");
+  if (!solved) return nullptr;
+  for (const auto& node : solved->nodes)
+    if (node) places.emplace(node->id, node->position.at);
+  return std::make_shared<const detail::StemEvidence>(detail::learnedEvidence(task.photos, cameras.views, places, task.options.stems, cameras.uncertainty.click_px));
+}
+
 Result<Photographed> inKnownCameras(const Task& task, EstimatedCameras cameras) {
   const std::vector<ClickedNode> kept = withoutSuspects(task.nodes, cameras.suspects);
   SnapOptions options = snapOptionsFor(cameras);
@@ -78,8 +94,11 @@ Result<Photographed> inKnownCameras(const Task& task, EstimatedCameras cameras) 
 
 Result<Photographed> measurePhotographed(std::span<const View> views, const std::map<std::string, UnknownCameraHints>& hints, const Photos& photos,
                                          std::span<const ClickedNode> nodes, const EstimateOptions& options) {
-  const Task task{views, hints, photos, nodes, options};
+  Task task{views, hints, photos, nodes, options};
   auto byClicks = estimateCameras(views, hints, nodes, options);
+  if (!byClicks) return byClicks.failure();
+  task.options.evidence = evidenceFor(task, *byClicks);
+  byClicks = estimateCameras(views, hints, nodes, task.options);
   if (!byClicks) return byClicks.failure();
   if (byClicks->reports.empty()) return inKnownCameras(task, *std::move(byClicks));
 

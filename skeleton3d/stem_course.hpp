@@ -1,33 +1,51 @@
 #pragma once
 /// \file
-/// Private to skeleton3d: how evenly stems run through a place, to tell which of two clicks is the wrong one where the views
-/// alone cannot: a click that is off along one axis of space contradicts another view, but not which of the two is right.
+/// Private to skeleton3d: where a stem's neighbouring nodes let one expect a node, to tell which of its clicks are wrong where
+/// the views alone cannot, and where on the ray of one good click it is.
 ///
-/// Measure: at every inner node of a stem the detour over it, (|ab| + |bc|) / |ac| - 1, whose root grows evenly with how far
-/// the node leaps aside. Usual is the median over all stems; a leap counts with a heavy tail, since plants do bend.
+/// A node between two others is expected near the smooth curve through its neighbours, one at an end of its stem near where
+/// the stem would go on. How near is learned from the plant's own nodes; tails are heavy, since plants do bend. Project's unit.
 
 #include "skeleton3d/types.hpp"
 
-#include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace axil::skeleton3d::detail {
 
+/// A node within one stem: the nodes with a place before and after it, the nearest first, at most two each.
+struct Neighbours {
+  std::vector<NodeId> before, after;
+};
+
 struct StemCourse {
   std::map<NodeId, glm::dvec3> places;
-  std::map<NodeId, std::vector<std::array<NodeId, 3>>> around;  ///< the runs of three nodes that a node is part of
-  double usual = 0;                                             ///< median root of a detour; 0: no run of three
+  std::map<NodeId, std::vector<Neighbours>> around;  ///< by stem; the stem that passes through a node comes first
+  double bend = 0.1;   ///< typical distance of a node from its neighbours' curve, as a share of their distance
+  double step = 0;     ///< typical length of a segment; 0: no stem has two places
+  double noise = 0;    ///< how exactly places are known
+  double reach = 1;    ///< size of the whole plant
 };
 
 /// Nodes without a place are passed over: their neighbours follow one another.
-[[nodiscard]] StemCourse stemCourseOf(std::span<const ClickedStem> stems, std::map<NodeId, glm::dvec3> places);
+[[nodiscard]] StemCourse stemCourseOf(std::span<const ClickedStem> stems, std::map<NodeId, glm::dvec3> places, double noise);
 
-/// The logarithm of how likely `node` stands at `at`, up to a constant; 0 for a node of no stem.
-[[nodiscard]] double likelihoodAt(const StemCourse& course, NodeId node, const glm::dvec3& at);
+/// The logarithm of the density, per cubed unit, with which `node` is expected at `at`.
+[[nodiscard]] double expectationAt(const StemCourse& course, NodeId node, const glm::dvec3& at);
 
-/// There the node would be far off its stems, by how nodes usually follow one another.
-[[nodiscard]] bool leapsAt(const StemCourse& course, NodeId node, const glm::dvec3& at);
+/// Where its neighbours put `node`, and how far about that it may be; nothing for a node without neighbours.
+struct ExpectedPlace {
+  glm::dvec3 at{0, 0, 0};
+  double reach = 0;
+};
+[[nodiscard]] std::optional<ExpectedPlace> expectedPlace(const StemCourse& course, NodeId node);
+
+/// There the node would be far off its stems: more than `times` what is usual.
+[[nodiscard]] bool leapsAt(const StemCourse& course, NodeId node, const glm::dvec3& at, double times);
+
+/// Which way its stem runs at `node` if that is at `at`; zero where nothing says so.
+[[nodiscard]] glm::dvec3 directionAt(const StemCourse& course, NodeId node, const glm::dvec3& at);
 
 }  // namespace axil::skeleton3d::detail
