@@ -14,3 +14,4 @@
 #include "base/rng.hpp"         // chance as an argument
 #include "base/progress.hpp"    // how far, and stop
 #include "base/overloaded.hpp"  // visiting a variant
+#include "base/large_array.hpp"  // memory for large arrays

@@ -1,9 +1,11 @@
 #include "render/axes.hpp"
 
+#include "render/parallel.hpp"
 #include "render/types.hpp"
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace axil::render {
@@ -87,18 +89,27 @@ std::vector<bool> continuedFlags(const std::vector<std::optional<OrganId>>& next
 }  // namespace
 
 double extentOf(const Plant& plant) {
+  constexpr std::size_t organsAtOnce = 8192;
+  std::vector<Bounds> pieces(piecesFor(plant.organs.size(), organsAtOnce));
+  inParallel(pieces.size(), [&](std::size_t piece) {
+    Bounds bounds;
+    for (std::size_t i = piece * organsAtOnce; i < std::min((piece + 1) * organsAtOnce, plant.organs.size()); ++i) {
+      const Organ& organ = plant.organs[i];
+      bounds.add(organ.base.at);
+      bounds.add(organ.tip().at);
+      for (const PlantPoint& point : organ.trail) bounds.add(point.at);
+    }
+    pieces[piece] = bounds;
+  });
   Bounds bounds;
-  for (const Organ& organ : plant.organs) {
-    bounds.add(organ.base.at);
-    bounds.add(organ.tip().at);
-    for (const PlantPoint& point : organ.trail) bounds.add(point.at);
-  }
+  for (const Bounds& piece : pieces) bounds.add(piece);
   return bounds.empty() ? 0 : glm::length(bounds.size());
 }
 
 PlantAxes axesOf(const Plant& plant, Continuation continuation) {
   PlantAxes result;
-  result.negligible = extentOf(plant) * negligibleShare;
+  result.extent = extentOf(plant);
+  result.negligible = result.extent * negligibleShare;
   const std::vector<Standing> standings = standingsOf(plant, result.negligible);
   const auto next = continuationsOf(plant, standings, continuation, result.negligible);
   const std::vector<bool> continued = continuedFlags(next);

@@ -32,6 +32,7 @@ struct Axis {
 struct PlantAxes {
   std::vector<Axis> axes;                         ///< parent before child
   std::vector<std::optional<Site>> siteOfTip;     ///< one an organ: where things on its tip sit (for a leaf: where it is attached)
+  double extent = 0;                              ///< `extentOf` the plant
   double negligible = 0;                          ///< length below which a body was passed over
 };
 

@@ -15,6 +15,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -35,12 +36,12 @@ struct Piece {
 };
 
 template <class T>
-std::string_view bytesOf(const std::vector<T>& values) {
+std::string_view bytesOf(std::span<const T> values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
 template <class T>
-std::vector<char> copyOf(const std::vector<T>& values) {
+std::vector<char> copyOf(std::span<const T> values) {
   const std::string_view bytes = bytesOf(values);
   return {bytes.begin(), bytes.end()};
 }
@@ -164,7 +165,7 @@ class GlbWriter {
   }
   /// `seen` stays where it is until the file is written; what is only made for the file is kept.
   template <class T>
-  [[nodiscard]] Piece pieceOf(const std::vector<T>& seen, Lives lives) const {
+  [[nodiscard]] Piece pieceOf(std::span<const T> seen, Lives lives) const {
     return lives == Lives::WithThePlant ? Piece{.seen = bytesOf(seen), .kept = {}} : Piece{.seen = {}, .kept = copyOf(seen)};
   }
 
@@ -187,12 +188,12 @@ class GlbWriter {
   }
   [[nodiscard]] int lastAccessor() const { return static_cast<int>(model_.accessors.size() - 1); }
 
-  int addVectors(const std::vector<glm::vec3>& values, Lives lives) {
+  int addVectors(std::span<const glm::vec3> values, Lives lives) {
     addAccessor(addView(pieceOf(values, lives), TINYGLTF_TARGET_ARRAY_BUFFER), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, values.size());
     return lastAccessor();
   }
 
-  int addPositions(const std::vector<glm::vec3>& values, Lives lives) {
+  int addPositions(std::span<const glm::vec3> values, Lives lives) {
     const int index = addVectors(values, lives);
     glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
     for (const glm::vec3& p : values) {
@@ -205,7 +206,7 @@ class GlbWriter {
   }
 
   /// A vertex colour is linear in glTF, as it is here; 16 bits keep dark ones apart.
-  int addColours(const std::vector<glm::vec3>& colours) {
+  int addColours(std::span<const glm::vec3> colours) {
     std::vector<char> values(colours.size() * sizeof(glm::u16vec4));
     inParallel(piecesFor(colours.size(), coloursAtOnce), [&](std::size_t piece) {
       for (std::size_t i = piece * coloursAtOnce; i < std::min((piece + 1) * coloursAtOnce, colours.size()); ++i) {
@@ -217,17 +218,17 @@ class GlbWriter {
     return lastAccessor();
   }
 
-  int addIndices(const std::vector<std::uint32_t>& indices, std::size_t vertexCount, Lives lives) {
+  int addIndices(std::span<const std::uint32_t> indices, std::size_t vertexCount, Lives lives) {
     if (vertexCount < 65535) {
       const std::vector<std::uint16_t> narrow(indices.begin(), indices.end());
-      addAccessor(addView(pieceOf(narrow, Lives::Here), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER), TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR, narrow.size());
+      addAccessor(addView(pieceOf(std::span(narrow), Lives::Here), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER), TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR, narrow.size());
     } else {
       addAccessor(addView(pieceOf(indices, lives), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, indices.size());
     }
     return lastAccessor();
   }
 
-  tinygltf::Primitive primitiveOf(const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals, const std::vector<std::uint32_t>& triangles, Lives lives) {
+  tinygltf::Primitive primitiveOf(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals, std::span<const std::uint32_t> triangles, Lives lives) {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.attributes["POSITION"] = addPositions(positions, lives);

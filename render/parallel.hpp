@@ -29,4 +29,19 @@ void inParallel(std::size_t count, const Work& work) {
 /// Things are made in pieces of so many, each piece by itself; what comes out is the same for any number of threads.
 inline std::size_t piecesFor(std::size_t count, std::size_t atOnce) { return (count + atOnce - 1) / atOnce; }
 
+/// The least k below `count` that `is` holds for, else `count`.
+template <class Is>
+std::size_t firstOf(std::size_t count, const Is& is) {
+  constexpr std::size_t atOnce = 8192;
+  std::vector<std::size_t> firsts(piecesFor(count, atOnce), count);
+  inParallel(firsts.size(), [&](std::size_t piece) {
+    for (std::size_t k = piece * atOnce; k < std::min((piece + 1) * atOnce, count); ++k)
+      if (is(k)) {
+        firsts[piece] = k;
+        return;
+      }
+  });
+  return firsts.empty() ? count : *std::min_element(firsts.begin(), firsts.end());
+}
+
 }  // namespace axil::render

@@ -4,6 +4,7 @@
 #include "render/colour.hpp"
 #include "render/organ_models.hpp"
 #include "render/parallel.hpp"
+#include "render/stem_mesh.hpp"
 #include "render/tube.hpp"
 #include "render/turtle_shapes.hpp"
 
@@ -38,15 +39,17 @@ constexpr double freeTipTaper = 0.55, loadedTipTaper = 0.85;
 
 bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
+bool isPlaced(const Organ& organ) {
+  return isFinite(organ.base.at) && std::isfinite(organ.length) && std::isfinite(organ.radius) && organ.length >= 0;
+}
+
 Result<void> checkOrgans(const Plant& plant) {
-  for (std::size_t i = 0; i < plant.organs.size(); ++i) {
-    const Organ& organ = plant.organs[i];
-    if (isFinite(organ.base.at) && std::isfinite(organ.length) && std::isfinite(organ.radius) && organ.length >= 0) continue;
-    return fail(ErrorCode::BadInput, "organ " + std::to_string(i) + " (" + simeco::keywordOf(organ.kind) + ", stage " +
-                                         std::to_string(plant.styleOf(organ).stage) +
-                                         ") has no finite place and size; look for a division by zero or a runaway growth rate in its stage");
-  }
-  return {};
+  const std::size_t i = firstOf(plant.organs.size(), [&](std::size_t k) { return !isPlaced(plant.organs[k]); });
+  if (i == plant.organs.size()) return {};
+  const Organ& organ = plant.organs[i];
+  return fail(ErrorCode::BadInput, "organ " + std::to_string(i) + " (" + simeco::keywordOf(organ.kind) + ", stage " +
+                                       std::to_string(plant.styleOf(organ).stage) +
+                                       ") has no finite place and size; look for a division by zero or a runaway growth rate in its stage");
 }
 
 TubeDetail tubeDetailFor(Detail detail, double relativeRadius) {
@@ -135,23 +138,22 @@ std::vector<bool> loadedTips(const Plant& plant, const PlantAxes& axes) {
   return loaded;
 }
 
+/// What every stem of the plant is drawn by.
 class StemDrawer {
  public:
   StemDrawer(const Plant& plant, const PlantAxes& axes, std::vector<StemLook> looks, StemScale scale)
       : plant_(plant), looks_(std::move(looks)), scale_(scale), axes_(axes), loaded_(loadedTips(plant, axes)) {}
 
-  [[nodiscard]] TubePath pathOf(std::size_t index) const {
+  /// Sets `path` to the one of an axis. Its memory is used again.
+  void follow(std::size_t index, TubePath& path) const {
     const Axis& axis = axes_.axes[index];
-    TubePath path;
-    const std::size_t count = axis.organs.size();
-    path.nodes.resize(count + 1);
-    path.segments.reserve(count);
-    for (std::size_t k = 0; k <= count; ++k) path.nodes[k] = nodeAt(index, k);
-    for (const OrganId id : axis.organs) path.segments.push_back({.organ = id, .material = lookOf(plant_.at(id)).material});
-    if (plant_.at(axis.organs.front()).tipRadius) path.sharpestBend = sharpestTurtleBend;
+    path.nodes.clear();
+    path.segments.clear();
+    path.collar = {};
+    path.sharpestBend = plant_.at(axis.organs.front()).tipRadius ? sharpestTurtleBend : TubePath{}.sharpestBend;
+    addNodes(path, index);
     addTrails(path, axis);
     if (axis.insertion) path.collar.parentRadius = radiusAt(static_cast<std::size_t>(axis.insertion->axis.value), static_cast<std::size_t>(axis.insertion->node));
-    return path;
   }
 
  private:
@@ -159,18 +161,24 @@ class StemDrawer {
 
   [[nodiscard]] glm::vec3 colourOf(const Organ& organ) const {
     const StemLook& look = lookOf(organ);
-    return glm::mix(look.colour, barkColour(), static_cast<float>(look.bark * woodiness(radiusOf(organ, scale_), scale_)));
+    return glm::mix(look.colour, bark_, static_cast<float>(look.bark * woodiness(radiusOf(organ, scale_), scale_)));
   }
 
-  /// Node k of an axis: between two organs it has the mean of their radii and colours.
-  [[nodiscard]] TubeNode nodeAt(std::size_t index, std::size_t k) const {
-    const Axis& axis = axes_.axes[index];
-    const Organ& before = plant_.at(axis.organs[k == 0 ? 0 : k - 1]);
-    const Organ& after = plant_.at(axis.organs[std::min(k, axis.organs.size() - 1)]);
-    return {.at = k == 0 ? before.base.at : before.tip().at, .radius = radiusAt(index, k), .colour = (colourOf(before) + colourOf(after)) * 0.5f};
+  /// The ends of an axis' organs: between two of them a node has the mean of their radii and colours.
+  void addNodes(TubePath& path, std::size_t index) const {
+    const std::vector<OrganId>& organs = axes_.axes[index].organs;
+    glm::vec3 before = colourOf(plant_.at(organs.front()));
+    path.nodes.push_back({.at = plant_.at(organs.front()).base.at, .radius = radiusAt(index, 0), .colour = before});
+    for (std::size_t k = 0; k < organs.size(); ++k) {
+      const Organ& organ = plant_.at(organs[k]);
+      const glm::vec3 after = k + 1 < organs.size() ? colourOf(plant_.at(organs[k + 1])) : before;
+      path.nodes.push_back({.at = organ.tip().at, .radius = radiusAt(index, k + 1), .colour = (before + after) * 0.5f});
+      path.segments.push_back({.organ = organs[k], .material = lookOf(organ).material});
+      before = after;
+    }
   }
 
-  /// The radius there. A turtle says how wide each piece is at its tip; elsewhere the tip of a stem is a share of its last radius.
+  /// The radius at node `k`. A turtle says how wide each piece is at its tip; elsewhere the tip of a stem is a share of its last radius.
   [[nodiscard]] double radiusAt(std::size_t index, std::size_t k) const {
     const Axis& axis = axes_.axes[index];
     if (k == 0) return radiusOf(plant_.at(axis.organs.front()), scale_);
@@ -206,16 +214,17 @@ class StemDrawer {
   StemScale scale_;
   const PlantAxes& axes_;
   std::vector<bool> loaded_;
+  glm::vec3 bark_ = barkColour();
 };
 
 StemScale stemScaleOf(const Plant& plant, const PlantAxes& axes) {
-  StemScale scale{.extent = extentOf(plant), .thickest = 0};
+  StemScale scale{.extent = axes.extent, .thickest = 0};
   for (const Axis& axis : axes.axes)
     for (const OrganId id : axis.organs) scale.thickest = std::max(scale.thickest, radiusOf(plant.at(id), scale));
   return scale;
 }
 
-/// The tubes of all pieces as one mesh, written by all threads.
+/// The tubes of all pieces as one mesh, each piece written by one thread.
 StemMesh meshOf(const std::vector<TubeRings>& pieces) {
   std::vector<std::size_t> firstVertex{0}, firstTriangle{0};
   for (const TubeRings& piece : pieces) {
@@ -227,17 +236,17 @@ StemMesh meshOf(const std::vector<TubeRings>& pieces) {
   return mesh;
 }
 
-Result<void> addStems(PlantMesh& mesh, const Plant& plant, Detail detail, std::size_t maximumTriangles) {
-  const PlantAxes axes = axesOf(plant, Continuation::Straightest);
+Result<void> addStems(PlantMesh& mesh, const Plant& plant, const PlantAxes& axes, Detail detail, std::size_t maximumTriangles) {
   const StemScale scale = stemScaleOf(plant, axes);
   const StemDrawer drawer(plant, axes, stemLooksOf(plant, mesh), scale);
   constexpr std::size_t axesAtOnce = 1024;
   std::vector<TubeRings> pieces(piecesFor(axes.axes.size(), axesAtOnce));
   std::atomic<std::size_t> triangles = 0;
   inParallel(pieces.size(), [&](std::size_t piece) {
+    TubePath path;
     for (std::size_t i = piece * axesAtOnce; i < std::min((piece + 1) * axesAtOnce, axes.axes.size()) && triangles <= maximumTriangles; ++i) {
       const std::size_t before = pieces[piece].triangleCount();
-      const TubePath path = drawer.pathOf(i);
+      drawer.follow(i, path);
       pieces[piece].add(path, tubeDetailFor(detail, path.nodes.front().radius / scale.extent));
       triangles += pieces[piece].triangleCount() - before;
     }
@@ -336,8 +345,7 @@ Placement placementOf(const Organ& organ, OrganId id, const ModelSlot& slot) {
           .scale = glm::vec3(across, organ.length, through)};
 }
 
-void addModels(PlantMesh& mesh, const Plant& plant, Detail detail) {
-  const double negligible = extentOf(plant) * 1e-7;
+void addModels(PlantMesh& mesh, const Plant& plant, Detail detail, double negligible) {
   Models models(plant, mesh, detail);
   for (std::size_t i = 0; i < plant.organs.size(); ++i) {
     const Organ& organ = plant.organs[i];
@@ -360,8 +368,9 @@ Result<PlantMesh> meshOf(const Plant& plant, const MeshOptions& options) {
   mesh.name = plant.name;
   if (!plant.organs.empty()) mesh.collar = plant.organs.front().base;
   const Detail detail = options.detail.value_or(detailFor(plant.organs.size()));
-  if (const auto stems = addStems(mesh, plant, detail, options.maximumTriangles); !stems) return stems.failure();
-  addModels(mesh, plant, detail);
+  const PlantAxes axes = axesOf(plant, Continuation::Straightest);
+  if (const auto stems = addStems(mesh, plant, axes, detail, options.maximumTriangles); !stems) return stems.failure();
+  addModels(mesh, plant, detail, axes.negligible);
   addTurtleShapes(mesh, plant, detail);
   if (mesh.triangleCount() <= options.maximumTriangles) return mesh;
   return fail(ErrorCode::LimitReached, "the plant has " + std::to_string(mesh.triangleCount()) + " triangles, more than the limit of " +

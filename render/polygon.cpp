@@ -13,13 +13,11 @@ namespace {
 double cross2(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 /// The polygon as seen along its normal, so that it runs counter-clockwise.
-std::vector<glm::dvec2> flattenedCorners(std::span<const glm::dvec3> corners, const glm::dvec3& normal) {
+void flatten(std::vector<glm::dvec2>& flat, std::span<const glm::dvec3> corners, const glm::dvec3& normal) {
   const glm::dvec3 helper = std::abs(normal.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
   const glm::dvec3 right = glm::normalize(glm::cross(helper, normal)), up = glm::cross(normal, right);
-  std::vector<glm::dvec2> flat;
-  flat.reserve(corners.size());
+  flat.clear();
   for (const glm::dvec3& p : corners) flat.emplace_back(glm::dot(p - corners.front(), right), glm::dot(p - corners.front(), up));
-  return flat;
 }
 
 bool isInside(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
@@ -46,29 +44,34 @@ glm::dvec3 areaNormal(std::span<const glm::dvec3> corners) {
   return sum;
 }
 
-std::vector<std::array<std::uint32_t, 3>> trianglesOf(std::span<const glm::dvec3> corners) {
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  if (corners.size() < 3) return triangles;
-  std::vector<std::uint32_t> left(corners.size());
-  std::iota(left.begin(), left.end(), 0u);
-  const glm::dvec3 normal = areaNormal(corners);
+std::span<const std::array<std::uint32_t, 3>> PolygonCutter::cut(std::span<const glm::dvec3> corners, const glm::dvec3& normal) {
+  triangles_.clear();
+  if (corners.size() < 3) return triangles_;
+  left_.resize(corners.size());
+  std::iota(left_.begin(), left_.end(), 0u);
   if (corners.size() > 3 && glm::dot(normal, normal) > 0) {
-    const std::vector<glm::dvec2> flat = flattenedCorners(corners, glm::normalize(normal));
+    flatten(flat_, corners, glm::normalize(normal));
     // Each round starts where the last ear was, so that a long strip is cut along it and not as a fan of slivers.
-    for (std::size_t k = 0, tried = 0; left.size() > 3 && tried < left.size();) {
-      k %= left.size();
-      if (!isEar(flat, left, k)) {
+    for (std::size_t k = 0, tried = 0; left_.size() > 3 && tried < left_.size();) {
+      k %= left_.size();
+      if (!isEar(flat_, left_, k)) {
         ++k, ++tried;
         continue;
       }
-      const std::size_t n = left.size();
-      triangles.push_back({left[(k + n - 1) % n], left[k], left[(k + 1) % n]});
-      left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
+      const std::size_t n = left_.size();
+      triangles_.push_back({left_[(k + n - 1) % n], left_[k], left_[(k + 1) % n]});
+      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(k));
       ++k, tried = 0;
     }
   }
-  for (std::size_t i = 2; i < left.size(); ++i) triangles.push_back({left[0], left[i - 1], left[i]});
-  return triangles;
+  for (std::size_t i = 2; i < left_.size(); ++i) triangles_.push_back({left_[0], left_[i - 1], left_[i]});
+  return triangles_;
+}
+
+std::vector<std::array<std::uint32_t, 3>> trianglesOf(std::span<const glm::dvec3> corners) {
+  PolygonCutter cutter;
+  const auto triangles = cutter.cut(corners, areaNormal(corners));
+  return {triangles.begin(), triangles.end()};
 }
 
 }  // namespace axil::render

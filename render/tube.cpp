@@ -1,14 +1,11 @@
 #include "render/tube.hpp"
 
 #include "base/result.hpp"
-#include "render/parallel.hpp"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 namespace axil::render {
@@ -23,19 +20,15 @@ constexpr double funnelSlope = 0.7;
 
 double angleOf(const glm::dvec3& a, const glm::dvec3& b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
-struct Chord {
-  glm::dvec3 direction{0, 1, 0};
-  double length = 0;
-};
+using Chord = TubeChord;
 
-std::vector<Chord> chordsOf(const std::vector<TubeNode>& nodes) {
-  std::vector<Chord> chords(nodes.size() - 1);
+void setChords(std::vector<Chord>& chords, const std::vector<TubeNode>& nodes) {
+  chords.resize(nodes.size() - 1);
   for (std::size_t i = 0; i < chords.size(); ++i) {
     const glm::dvec3 step = nodes[i + 1].at - nodes[i].at;
     chords[i].length = glm::length(step);
     chords[i].direction = step / chords[i].length;
   }
-  return chords;
 }
 
 /// Whether a tube of `radius` can follow the bend between two chords without folding into itself: the arc that fits the
@@ -96,18 +89,16 @@ double collaredRadius(double radius, double along, const TubeCollar& collar) {
 }
 
 /// Where along the first segment a collar needs rings, as shares of the segment, beside the even steps.
-std::vector<double> stepShares(int steps, double length, double radius, const TubeCollar& collar) {
-  std::vector<double> shares;
-  shares.reserve(static_cast<std::size_t>(steps) + 5);
+void setShares(std::vector<double>& shares, int steps, double length, double radius, const TubeCollar& collar) {
+  shares.clear();
   for (int k = 1; k <= steps; ++k) shares.push_back(static_cast<double>(k) / steps);
-  if (collar.parentRadius <= 0) return shares;
+  if (collar.parentRadius <= 0) return;
   for (const double along : {0.6 * collar.parentRadius, collar.parentRadius, collar.parentRadius + 0.8 * radius,
                              collar.parentRadius + 1.6 * radius, collar.parentRadius + 2.5 * radius})
     if (along < 0.97 * length) shares.push_back(along / length);
   std::sort(shares.begin(), shares.end());
   shares.erase(std::unique(shares.begin(), shares.end(), [](double a, double b) { return b - a < 0.01; }), shares.end());
   shares.back() = 1;
-  return shares;
 }
 
 /// The double reflection method: the ring normal carried from one ring to the next without twist.
@@ -129,7 +120,7 @@ glm::dvec3 anyNormal(const glm::dvec3& tangent) {
 }
 
 /// How far the surface leans out of the ring's plane, for its normals: by the taper between the neighbours.
-void setTilts(std::vector<TubeRing>& rings) {
+void setTilts(std::span<TubeRing> rings) {
   for (std::size_t i = 0; i < rings.size(); ++i) {
     const TubeRing& before = rings[i == 0 ? 0 : i - 1];
     const TubeRing& after = rings[i + 1 == rings.size() ? i : i + 1];
@@ -148,7 +139,7 @@ TubeRing capRing(const TubeRing& end, int k, int count, double sign) {
 }
 
 /// Appends a run with the rings of the balls at both ends; the poles themselves are vertices, not rings.
-void appendWithRoundEnds(std::vector<TubeRing>& rings, const std::vector<TubeRing>& run, int capRings) {
+void appendWithRoundEnds(std::vector<TubeRing>& rings, std::span<const TubeRing> run, int capRings) {
   for (int k = capRings - 1; k >= 1; --k) rings.push_back(capRing(run.front(), k, capRings, -1));
   rings.insert(rings.end(), run.begin(), run.end());
   for (int k = 1; k < capRings; ++k) rings.push_back(capRing(run.back(), k, capRings, 1));
@@ -163,28 +154,42 @@ glm::dvec3 poleOf(const TubeRing& ring, double sign) {
 
 }  // namespace
 
-std::vector<std::vector<TubeRing>> centreLine(const TubePath& path, const TubeDetail& detail) {
+void CentreLines::trace(const TubePath& path, const TubeDetail& detail) {
   const std::vector<TubeNode>& nodes = path.nodes;
-  const std::vector<Chord> chords = chordsOf(nodes);
-  std::vector<std::vector<TubeRing>> runs;
-  for (std::size_t i = 0; i < chords.size(); ++i) {
-    const bool startsRun = i == 0 || needsBall(chords[i - 1], chords[i], nodes[i].radius, path.sharpestBend);
-    const bool endsRun = i + 1 == chords.size() || needsBall(chords[i], chords[i + 1], nodes[i + 1].radius, path.sharpestBend);
-    const Cubic cubic = cubicAt(nodes, chords, i, startsRun, endsRun);
+  setChords(chords_, nodes);
+  rings_.clear();
+  firsts_.clear();
+  bool startsRun = true;
+  for (std::size_t i = 0; i < chords_.size(); ++i) {
+    const bool endsRun = i + 1 == chords_.size() || needsBall(chords_[i], chords_[i + 1], nodes[i + 1].radius, path.sharpestBend);
+    const Cubic cubic = cubicAt(nodes, chords_, i, startsRun, endsRun);
     const auto segment = static_cast<std::int32_t>(i);
     const TubeCollar collar = i == 0 && detail.capRings > 1 ? path.collar : TubeCollar{};
     if (startsRun) {
-      runs.emplace_back();
-      runs.back().push_back(ringAt(nodes[i], nodes[i + 1], cubic, 0, segment));
-      if (i == 0) runs.back().back().radius = std::min(collaredRadius(nodes[i].radius, 0, collar), hiddenRadius(nodes[i].radius, path.collar));
+      firsts_.push_back(rings_.size());
+      rings_.push_back(ringAt(nodes[i], nodes[i + 1], cubic, 0, segment));
+      if (i == 0) rings_.back().radius = std::min(collaredRadius(nodes[i].radius, 0, collar), hiddenRadius(nodes[i].radius, path.collar));
     }
-    const int steps = stepsFor(cubic, detail);
-    for (const double u : stepShares(steps, chords[i].length, nodes[i].radius, collar)) {
-      runs.back().push_back(ringAt(nodes[i], nodes[i + 1], cubic, u, segment));
-      runs.back().back().radius = collaredRadius(runs.back().back().radius, u * chords[i].length, collar);
+    setShares(shares_, stepsFor(cubic, detail), chords_[i].length, nodes[i].radius, collar);
+    for (const double u : shares_) {
+      rings_.push_back(ringAt(nodes[i], nodes[i + 1], cubic, u, segment));
+      rings_.back().radius = collaredRadius(rings_.back().radius, u * chords_[i].length, collar);
     }
+    if (endsRun) setTilts(std::span(rings_).subspan(firsts_.back()));
+    startsRun = endsRun;
   }
-  for (std::vector<TubeRing>& run : runs) setTilts(run);
+}
+
+std::span<const TubeRing> CentreLines::run(std::size_t index) const {
+  const std::size_t end = index + 1 < firsts_.size() ? firsts_[index + 1] : rings_.size();
+  return std::span(rings_).subspan(firsts_[index], end - firsts_[index]);
+}
+
+std::vector<std::vector<TubeRing>> centreLine(const TubePath& path, const TubeDetail& detail) {
+  CentreLines lines;
+  lines.trace(path, detail);
+  std::vector<std::vector<TubeRing>> runs;
+  for (std::size_t k = 0; k < lines.runs(); ++k) runs.emplace_back(lines.run(k).begin(), lines.run(k).end());
   return runs;
 }
 
@@ -276,9 +281,10 @@ class Sweeper {
 
 void TubeRings::add(const TubePath& path, const TubeDetail& detail) {
   AXIL_ASSERT(path.nodes.size() >= 2 && path.segments.size() + 1 == path.nodes.size(), "a tube has two nodes, and a segment between each two");
-  for (const std::vector<TubeRing>& run : centreLine(path, detail)) {
+  lines_.trace(path, detail);
+  for (std::size_t k = 0; k < lines_.runs(); ++k) {
     const std::size_t first = rings_.size();
-    appendWithRoundEnds(rings_, run, detail.capRings);
+    appendWithRoundEnds(rings_, lines_.run(k), detail.capRings);
     for (std::size_t i = first; i < rings_.size(); ++i) sources_.push_back(path.segments[static_cast<std::size_t>(rings_[i].segment)]);
     const std::size_t count = rings_.size() - first, sides = static_cast<std::size_t>(detail.sides);
     runs_.push_back({first, count, static_cast<std::uint32_t>(sides)});
@@ -292,14 +298,6 @@ void TubeRings::sweepInto(StemMesh& mesh, std::size_t firstVertex, std::size_t f
   Circle circle;
   for (const Run& run : runs_)
     sweeper.sweep(std::span(rings_).subspan(run.firstRing, run.rings), std::span(sources_).subspan(run.firstRing, run.rings), circle.of(run.sides));
-}
-
-StemMesh roomFor(std::size_t vertices, std::size_t triangles) {
-  StemMesh mesh;
-  const std::array<std::function<void()>, 5> arrays{[&] { mesh.triangles.resize(3 * triangles); }, [&] { mesh.positions.resize(vertices); },
-                                                    [&] { mesh.normals.resize(vertices); }, [&] { mesh.colours.resize(vertices); }, [&] { mesh.sources.resize(triangles); }};
-  inParallel(arrays.size(), [&](std::size_t k) { arrays[k](); });
-  return mesh;
 }
 
 }  // namespace axil::render

@@ -54,6 +54,26 @@ struct TubeRing {
 /// The centre line of `path`, cut where a ball joint is needed: each run is swept and capped by itself.
 [[nodiscard]] std::vector<std::vector<TubeRing>> centreLine(const TubePath& path, const TubeDetail& detail);
 
+struct TubeChord {
+  glm::dvec3 direction{0, 1, 0};
+  double length = 0;
+};
+
+/// Centre lines one after the other, in memory that is kept between them.
+class CentreLines {
+ public:
+  /// Follows `path`; its runs are there until the next call.
+  void trace(const TubePath& path, const TubeDetail& detail);
+  [[nodiscard]] std::size_t runs() const { return firsts_.size(); }
+  [[nodiscard]] std::span<const TubeRing> run(std::size_t index) const;
+
+ private:
+  std::vector<TubeChord> chords_;
+  std::vector<double> shares_;
+  std::vector<TubeRing> rings_;
+  std::vector<std::size_t> firsts_;   ///< first ring of each run
+};
+
 /// Tubes as rings, before they are triangles: how large their mesh will be is known before it is made, so that many of these can be
 /// written side by side into one mesh.
 class TubeRings {
@@ -73,11 +93,9 @@ class TubeRings {
   std::vector<TubeRing> rings_;
   std::vector<TriangleSource> sources_;  ///< one a ring
   std::vector<Run> runs_;
+  CentreLines lines_;
   std::size_t vertices_ = 0;
   std::size_t triangles_ = 0;
 };
-
-/// Room for so many vertices and triangles, made by all threads.
-[[nodiscard]] StemMesh roomFor(std::size_t vertices, std::size_t triangles);
 
 }  // namespace axil::render

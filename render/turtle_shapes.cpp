@@ -55,33 +55,61 @@ class Materials {
 
 // ---- faces -----------------------------------------------------------------------------------------------------------
 
-void addFace(StemMesh& faces, const simeco::PlantFace& face, const glm::vec3& colour, const TriangleSource& source) {
-  std::vector<glm::dvec3> corners;
-  corners.reserve(face.vertices.size());
-  for (const PlantPoint& vertex : face.vertices) corners.push_back(vertex.at);
-  const glm::dvec3 area = areaNormal(corners);
-  const glm::vec3 normal = glm::dot(area, area) > 0 ? glm::vec3(glm::normalize(area)) : glm::vec3(0, 1, 0);
-  const auto first = static_cast<std::uint32_t>(faces.positions.size());
-  for (const glm::dvec3& corner : corners) faces.positions.emplace_back(corner);
-  faces.normals.insert(faces.normals.end(), corners.size(), normal);
-  faces.colours.insert(faces.colours.end(), corners.size(), colour);
-  for (const auto& triangle : trianglesOf(corners)) {
-    for (const std::uint32_t corner : triangle) faces.triangles.push_back(first + corner);
-    faces.sources.push_back(source);
+/// Writes faces into a mesh that has room for them: a polygon of n corners is n vertices and n - 2 triangles.
+class FaceWriter {
+ public:
+  explicit FaceWriter(StemMesh& mesh) : mesh_(mesh) {}
+
+  void write(const simeco::PlantFace& face, std::size_t firstVertex, std::size_t firstTriangle, const glm::vec3& colour, const TriangleSource& source) {
+    corners_.clear();
+    for (const PlantPoint& vertex : face.vertices) corners_.push_back(vertex.at);
+    const glm::dvec3 area = areaNormal(corners_);
+    const glm::vec3 normal = glm::dot(area, area) > 0 ? glm::vec3(glm::normalize(area)) : glm::vec3(0, 1, 0);
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+      mesh_.positions[firstVertex + k] = glm::vec3(corners_[k]);
+      mesh_.normals[firstVertex + k] = normal;
+      mesh_.colours[firstVertex + k] = colour;
+    }
+    for (const auto& triangle : cutter_.cut(corners_, area)) {
+      for (std::size_t k = 0; k < 3; ++k) mesh_.triangles[3 * firstTriangle + k] = static_cast<std::uint32_t>(firstVertex) + triangle[k];
+      mesh_.sources[firstTriangle++] = source;
+    }
   }
-}
+
+ private:
+  StemMesh& mesh_;
+  std::vector<glm::dvec3> corners_;
+  PolygonCutter cutter_;
+};
 
 void addFaces(PlantMesh& mesh, const Plant& plant) {
+  constexpr std::size_t facesAtOnce = 2048;
   Materials materials(mesh, plant, "face", Surface::Blade);
   std::vector<std::int32_t> materialOf(plant.faces.size());
-  for (std::size_t i = 0; i < plant.faces.size(); ++i) materialOf[i] = materials.of(plant.faces[i].style);
-  constexpr std::size_t facesAtOnce = 2048;
-  std::vector<StemMesh> pieces(piecesFor(plant.faces.size(), facesAtOnce));
-  inParallel(pieces.size(), [&](std::size_t piece) {
-    for (std::size_t i = piece * facesAtOnce; i < std::min((piece + 1) * facesAtOnce, plant.faces.size()); ++i)
-      addFace(pieces[piece], plant.faces[i], mesh.materials[static_cast<std::size_t>(materialOf[i])].colour, {.organ = faceId(plant, i), .material = materialOf[i]});
+  // A face of fewer than three corners is none.
+  const auto triangles = [](const simeco::PlantFace& face) { return face.vertices.size() < 3 ? std::size_t{0} : face.vertices.size() - 2; };
+  std::vector<std::size_t> firstVertex, firstTriangle;   // of each piece
+  std::size_t vertexCount = 0, triangleCount = 0;
+  for (std::size_t i = 0; i < plant.faces.size(); ++i) {
+    if (i % facesAtOnce == 0) {
+      firstVertex.push_back(vertexCount);
+      firstTriangle.push_back(triangleCount);
+    }
+    materialOf[i] = materials.of(plant.faces[i].style);
+    vertexCount += plant.faces[i].vertices.size();
+    triangleCount += triangles(plant.faces[i]);
+  }
+  mesh.faces = roomFor(vertexCount, triangleCount);
+  inParallel(firstVertex.size(), [&](std::size_t piece) {
+    FaceWriter writer(mesh.faces);
+    std::size_t vertex = firstVertex[piece], triangle = firstTriangle[piece];
+    for (std::size_t i = piece * facesAtOnce; i < std::min((piece + 1) * facesAtOnce, plant.faces.size()); ++i) {
+      const simeco::PlantFace& face = plant.faces[i];
+      writer.write(face, vertex, triangle, mesh.materials[static_cast<std::size_t>(materialOf[i])].colour, {.organ = faceId(plant, i), .material = materialOf[i]});
+      vertex += face.vertices.size();
+      triangle += triangles(face);
+    }
   });
-  mesh.faces = joined(std::move(pieces));
 }
 
 // ---- balls and discs -------------------------------------------------------------------------------------------------
@@ -172,9 +200,9 @@ void addDiscs(PlantMesh& mesh, const Plant& plant, Detail detail) {
 }  // namespace
 
 Result<void> checkTurtleShapes(const Plant& plant) {
-  for (std::size_t i = 0; i < plant.faces.size(); ++i)
-    for (const PlantPoint& vertex : plant.faces[i].vertices)
-      if (!isFinite(vertex.at)) return unplaced("polygon", i);
+  const auto isPlaced = [](const simeco::PlantFace& face) { return std::all_of(face.vertices.begin(), face.vertices.end(), [](const PlantPoint& p) { return isFinite(p.at); }); };
+  const std::size_t unplacedFace = firstOf(plant.faces.size(), [&](std::size_t i) { return !isPlaced(plant.faces[i]); });
+  if (unplacedFace < plant.faces.size()) return unplaced("polygon", unplacedFace);
   for (std::size_t i = 0; i < plant.balls.size(); ++i)
     if (!isFinite(plant.balls[i].centre.at) || !std::isfinite(plant.balls[i].radius)) return unplaced("sphere", i);
   for (std::size_t i = 0; i < plant.discs.size(); ++i)

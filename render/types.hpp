@@ -6,6 +6,7 @@
 /// Colours are linear RGB, 0 to 1; only an Image and the mesh files hold sRGB. Triangles are counter-clockwise from outside.
 
 #include "base/frames.hpp"
+#include "base/large_array.hpp"
 #include "organs/types.hpp"
 #include "simeco/plant.hpp"
 
@@ -54,11 +55,11 @@ struct TriangleSource {
 
 /// All stems of a plant as one closed surface a stem. `colours` is a vertex colour: it runs on smoothly from organ to organ.
 struct StemMesh {
-  std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;
-  std::vector<glm::vec3> colours;
-  std::vector<std::uint32_t> triangles;    ///< three indices each
-  std::vector<TriangleSource> sources;     ///< one a triangle
+  LargeArray<glm::vec3> positions;
+  LargeArray<glm::vec3> normals;
+  LargeArray<glm::vec3> colours;
+  LargeArray<std::uint32_t> triangles;     ///< three indices each
+  LargeArray<TriangleSource> sources;      ///< one a triangle
   friend bool operator==(const StemMesh&, const StemMesh&) = default;
 };
 

@@ -1,6 +1,7 @@
 // The image of a string: what its homomorphism makes of it, for drawing. Most homomorphisms ask for a module's own parameters alone
 // and have no effects: those are followed at once. All others, and whatever goes wrong, take the general way, which says what it was.
 
+#include "base/large_array.hpp"
 #include "simeco/engine_pass.hpp"
 
 #include <numeric>
@@ -64,10 +65,16 @@ class QuickImage {
     for (; at < codes.size() && !hasRules_[codes[at]]; ++at) numbers += program_.parameterCount[codes[at]];
     append(codes.subspan(begin, at - begin), {parameters, numbers});
     parameters += numbers;
-    const std::size_t had = image_.source.size();
-    image_.source.resize(had + (at - begin));
-    std::iota(image_.source.begin() + static_cast<std::ptrdiff_t>(had), image_.source.end(), static_cast<std::uint32_t>(begin));
+    makeRoom(at - begin);
+    for (std::size_t i = begin; i < at; ++i) image_.source.push_back(static_cast<std::uint32_t>(i));
     image_.drawnBy.insert(image_.drawnBy.end(), at - begin, -1);
+  }
+  /// For so many more notes; a quarter more at least, so that each costs the same.
+  void makeRoom(std::size_t more) {
+    const std::size_t needed = image_.source.size() + more;
+    if (needed <= image_.source.capacity()) return;
+    growRoom(image_.source, needed + needed / 4);
+    growRoom(image_.drawnBy, image_.source.capacity());
   }
   void append(std::span<const SymbolCode> codes, std::span<const double> numbers) {
     const std::size_t codesBefore = out_.codes.size(), numbersBefore = out_.parameters.size();
@@ -79,6 +86,7 @@ class QuickImage {
     out_.parameters.setSize(numbersBefore + numbers.size());
   }
   void note(std::size_t modules, std::int32_t rule) {
+    makeRoom(modules);
     image_.source.insert(image_.source.end(), modules, source_);
     image_.drawnBy.insert(image_.drawnBy.end(), modules, rule);
   }

@@ -1,5 +1,7 @@
 #include "simeco/lsystem_plant.hpp"
 
+#include "base/large_array.hpp"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -28,8 +30,8 @@ class PlantMaker : public TurtleSink {
       organs += draws[code];
       faces += outlines[code];
     }
-    plant_.faces.reserve(faces);
-    plant_.organs.reserve(organs);
+    growRoom(plant_.faces, faces);
+    growRoom(plant_.organs, organs);
     organOf_.reserve(organs);
   }
 

@@ -1,34 +1,24 @@
 #include "simeco/module_string.hpp"
 
+#include "base/large_array.hpp"
 #include "base/text.hpp"
 
 #include <algorithm>
 #include <array>
 #include <new>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 namespace axil::simeco {
 
 void* grownBlock(void* block, std::size_t used, std::size_t bytes) {
-  constexpr std::size_t largePage = std::size_t{1} << 21;
-  void* grown = nullptr;
-#if defined(__linux__)
-  if (bytes >= 2 * largePage) {
-    grown = std::aligned_alloc(largePage, (bytes + largePage - 1) / largePage * largePage);
+  constexpr std::size_t worthLargePages = std::size_t{4} << 20;
+  if (bytes < worthLargePages) {
+    void* const grown = std::realloc(block, bytes);
     if (grown == nullptr) throw std::bad_alloc();
-    // A wish only: without it the block works as well.
-    (void)madvise(grown, bytes, MADV_HUGEPAGE);
-    if (used > 0) std::memcpy(grown, block, used);
-    std::free(block);
     return grown;
   }
-#endif
-  grown = std::realloc(block, bytes);
-  if (grown == nullptr) throw std::bad_alloc();
-  (void)used;
+  void* const grown = largeBlock(bytes);
+  if (used > 0) std::memcpy(grown, block, used);
+  std::free(block);
   return grown;
 }
 

@@ -44,7 +44,10 @@ struct CurvePoint {
 class Walk {
  public:
   Walk(const ModuleString& string, const LSystemView& view, TurtleSink& sink, const Watch& watch)
-      : symbols_(string.symbols()), codes_(string.codes()), parameters_(string.parameters().data()), view_(view), sink_(sink), watch_(watch) {
+      : codes_(string.codes()), parameters_(string.parameters().data()), view_(view), sink_(sink), watch_(watch) {
+    const std::vector<Symbol>& symbols = string.symbols();
+    for (std::size_t code = 0; code < symbols.size(); ++code)
+      letters_[code] = {symbols[code].letter.size() == 1 ? symbols[code].letter[0] : '\0', static_cast<std::uint32_t>(symbols[code].parameters)};
     state_.width = view.lineWidth;
     state_.scale = view.scale;
     state_.colour = state_.backColour = view.colour;
@@ -62,16 +65,12 @@ class Walk {
   // ---- the string
 
   Token take() {
-    const Symbol& symbol = symbols_[codes_[at_++]];
-    const Token token{symbol.letter.size() == 1 ? symbol.letter[0] : '\0', {parameters_, static_cast<std::size_t>(symbol.parameters)}};
-    parameters_ += symbol.parameters;
+    const Letter letter = letters_[codes_[at_++]];
+    const Token token{letter.letter, {parameters_, letter.parameters}};
+    parameters_ += letter.parameters;
     return token;
   }
-  [[nodiscard]] char peek() const {
-    if (at_ >= codes_.size()) return '\0';
-    const std::string& letter = symbols_[codes_[at_]].letter;
-    return letter.size() == 1 ? letter[0] : '\0';
-  }
+  [[nodiscard]] char peek() const { return at_ >= codes_.size() ? '\0' : letters_[codes_[at_]].letter; }
   bool takeIf(char letter, Token& token) {
     if (peek() != letter) return false;
     token = take();
@@ -194,7 +193,13 @@ class Walk {
     }
   }
 
-  const std::vector<Symbol>& symbols_;
+  /// What a code of the string stands for.
+  struct Letter {
+    char letter = '\0';
+    std::uint32_t parameters = 0;
+  };
+
+  std::array<Letter, 256> letters_{};
   std::span<const SymbolCode> codes_;
   const double* parameters_;
   const LSystemView& view_;

@@ -1,3 +1,4 @@
+#include "render/stem_mesh.hpp"
 #include "render/tube.hpp"
 
 #include "base/rng.hpp"
