@@ -1,5 +1,6 @@
 #include "document/chain.hpp"
 
+#include "document/build.hpp"
 #include "document/traits.hpp"
 #include "keywords/models.hpp"
 
@@ -94,13 +95,42 @@ bool anyUnknown(const std::vector<skeleton3d::View>& views) {
   return std::any_of(views.begin(), views.end(), [](const skeleton3d::View& view) { return view.camera.model == skeleton3d::CameraModel::Unknown; });
 }
 
+std::size_t nodesShared(std::span<const skeleton3d::ClickedNode> nodes, const std::string& view) {
+  return static_cast<std::size_t>(std::count_if(nodes.begin(), nodes.end(), [&](const auto& node) { return node.clicks.size() > 1 && node.clicks.contains(view); }));
+}
+
+/// The view that is furthest from being estimated; a click that stands in it alone keeps it, so that its node is asked for elsewhere.
+const skeleton3d::View* unusableView(const Measured& clicks) {
+  const skeleton3d::View* worst = nullptr;
+  std::size_t fewest = skeleton3d::kFewestSharedNodes;
+  for (const skeleton3d::View& view : clicks.views) {
+    const std::size_t shared = nodesShared(clicks.nodes, view.name);
+    const bool alone = std::any_of(clicks.nodes.begin(), clicks.nodes.end(), [&](const auto& node) { return node.clicks.size() == 1 && node.clicks.contains(view.name); });
+    if (view.camera.model == skeleton3d::CameraModel::Unknown && shared < fewest && !alone) worst = &view, fewest = shared;
+  }
+  return worst;
+}
+
+/// Two photos with enough clicks are a plant already; the third joins in when it has enough too.
+Measured withoutUnusableViews(Measured clicks) {
+  while (clicks.views.size() > 2) {
+    const skeleton3d::View* view = unusableView(clicks);
+    if (view == nullptr) break;
+    clicks.notes.push_back("view '" + view->name + "' is left out: it shares " + std::to_string(nodesShared(clicks.nodes, view->name)) + " clicked nodes with other views; click at least " +
+                           std::to_string(skeleton3d::kFewestSharedNodes));
+    for (skeleton3d::ClickedNode& node : clicks.nodes) node.clicks.erase(view->name);
+    clicks.views.erase(clicks.views.begin() + (view - clicks.views.data()));
+  }
+  return clicks;
+}
+
 void takeCameras(skeleton3d::EstimatedCameras cameras, Measured& result) {
   result.nodes = skeleton3d::withoutSuspects(result.nodes, cameras.suspects);
   result.views = std::move(cameras.views);
   result.cameras = std::move(cameras.reports);
   result.suspects = std::move(cameras.suspects);
   result.uncertainty = std::move(cameras.uncertainty);
-  result.notes = std::move(cameras.notes);
+  result.notes.insert(result.notes.end(), std::make_move_iterator(cameras.notes.begin()), std::make_move_iterator(cameras.notes.end()));
 }
 
 void takeSnapping(skeleton3d::Snapping snapping, Measured& result) {
@@ -155,6 +185,14 @@ emit::EmitOptions emitOptionsOf(const Project& project, const ChainOptions& opti
   return emitOptions;
 }
 
+/// What the photos do not show and the description says: the flowers of what is still to grow.
+Result<simeco::Grammar> inFlower(Result<simeco::Grammar> grammar, const Project& project, const quantify::Measurements& measurements) {
+  const auto traits = traitsOf(project);
+  if (!grammar || !traits) return grammar;
+  const auto scale = emit::floweringScaleOf(measurements, metresPer(project.unit).value_or(1));
+  return emit::withFlowers(*std::move(grammar), *traits, scale);
+}
+
 }  // namespace
 
 std::filesystem::path photoPath(const OpenProject& open, const ProjectView& view) {
@@ -182,7 +220,7 @@ Result<Measured> measured(const OpenProject& open, const ChainOptions& options) 
   std::map<std::string, double> focals;
   auto views = readViews(open, options, focals);
   if (!views) return views.failure();
-  Measured result{std::move(*views), nodesOf(open.project), {}, {}};
+  Measured result = withoutUnusableViews({std::move(*views), nodesOf(open.project), {}, {}});
   const bool snap = options.snap == Snap::On;
   options.watch.report(snap ? "looking for the stems in the photos" : anyUnknown(result.views) ? "estimating the cameras" : "judging the clicks", 0.2);
   const auto done = snap ? measureSnapped(open, focals, result) : measureClicks(open, focals, result);
@@ -225,8 +263,8 @@ Result<simeco::Grammar> grammarOf(const Project& project, const quantify::Measur
   const emit::EmitOptions emitOptions = emitOptionsOf(project, options);
   switch (kind) {
     case GrammarKind::Initial: return emit::initialGrammar(measurements, emitOptions);
-    case GrammarKind::Predictive: return emit::predictiveGrammar(measurements, emitOptions, options.predictive);
-    case GrammarKind::Structured: return emit::structuredGrammar(measurements, emitOptions, options.structure);
+    case GrammarKind::Predictive: return inFlower(emit::predictiveGrammar(measurements, emitOptions, options.predictive), project, measurements);
+    case GrammarKind::Structured: return inFlower(emit::structuredGrammar(measurements, emitOptions, options.structure), project, measurements);
   }
   return emit::initialGrammar(measurements, emitOptions);
 }

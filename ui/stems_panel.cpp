@@ -43,6 +43,7 @@ Taken stemsPanel(const Panel& panel) {
   Taken taken;
   heading(panel, "way_stems");
   quiet(panel, panel.t(panel.project.stems.empty() ? "stems_first" : "stems_help"));
+  stillMissing(panel);
   gap(panel, 4);
   const auto chosen = panel.state.selection.node ? stemOf(panel.project, *panel.state.selection.node) : std::nullopt;
   for (const auto& entry : panel.project.stems) {
@@ -66,7 +67,6 @@ Taken stemsPanel(const Panel& panel) {
     ImGui::PopFont();
     ImGui::PopID();
   }
-  stillMissing(panel);
   return taken;
 }
 
