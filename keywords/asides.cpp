@@ -19,6 +19,14 @@ void ParagraphReader::noteBracket(std::size_t i) {
   scope_.organEnd = i + 1;
 }
 
+// A word that the vocabulary does not have and that is told by its end.
+bool ParagraphReader::looksAdjectival(std::size_t i) const {
+  if (tokens_[i].kind != TokenKind::Word || found_[i]) return false;
+  for (const std::string_view ending : {"ly", "ed", "ing", "ous", "ate", "ose", "ar", "ic", "ent", "oid", "ish", "less", "y"})
+    if (tokens_[i].text.size() > 4 && tokens_[i].text.ends_with(ending)) return true;
+  return isAny(i, {"large", "small", "long", "short", "thin", "thick", "slender", "tiny", "equal", "unequal", "free", "stout", "minute", "older", "younger"});
+}
+
 // A noun that is not in the vocabulary, at the begin of a clause and with statements behind it: "connectives 2-4 mm",
 // "scutellum spreading". Adjectives are told by their ends.
 bool ParagraphReader::isStranger(std::size_t i, std::size_t end) const {
@@ -45,6 +53,13 @@ void ParagraphReader::noteStranger(std::size_t i) {
   if (comma && !(noun + 1 < tokens_.size() && (tokens_[noun + 1].kind == TokenKind::Number || isAny(noun + 1, {"ca"})))) return;
   scope_.stranger = true;
   scope_.organInSentence = scope_.organInSentence && comma;
+}
+
+// 葉痕大，倒卵形; "leaf scars broad, reniform": statements about what the vocabulary knows as a place.
+void ParagraphReader::noteScar(std::size_t i) {
+  const bool opens = i == 0 || tokens_[i - 1].kind == TokenKind::Sign;
+  const bool scar = isAny(found_[i].end - 1, {"痕", "scar", "scars"});
+  if (opens && scar) scope_.stranger = true;
 }
 
 // "Capsule brown; stalk 2 mm", 葉具短柄，柄長5公釐: the stalk of what is spoken of.

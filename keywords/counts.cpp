@@ -110,7 +110,7 @@ std::size_t ParagraphReader::readCount(std::size_t i) {
   if (isHan(i) && found_[i] && found_[i].end > range->end) return 0;
   if (const std::size_t end = readLeavesPerNode(i, *range)) return end;
   const std::size_t word = is(range->end, "-") ? range->end + 1 : range->end;
-  const bool merousHan = isAny(word, {"數", "数", "基"}) && scope_.organInSentence;
+  const bool merousHan = (isAny(word, {"數", "数"}) || (is(word, "基") && isAny(word + 1, {"數", "数"}))) && scope_.organInSentence;
   if (isAny(word, {"merous"}) || merousHan) {
     const std::size_t end = is(word, "基") && isAny(word + 1, {"數", "数"}) ? word + 2 : word + 1;
     addCount(i, end, "flower", "", *range, "merous");

@@ -18,6 +18,7 @@ constexpr double weakOrgan = 0.5;
 constexpr double strongTerm = 1;
 constexpr double linkedTerm = 1;
 constexpr double foreignThing = 5;
+constexpr double pronoun = 1;
 constexpr double leastShare = 0.66;     // of the words that are known, in a description
 constexpr double leastEverydayShare = 0.85;  // in one that has no word that only botany uses
 constexpr double leastClauseShare = 0.7;     // between the first statement and the last, where the rest of the sentence is prose
@@ -25,6 +26,10 @@ constexpr double enoughInClauses = 4;
 constexpr double proseShare = 0.4;      // in one that is told in whole sentences, and has much evidence
 constexpr double muchEvidence = 6;
 constexpr double bodyShare = 0.75;      // where only stems or branches are named, as rivers and pipes have them too
+constexpr double someStrange = 0.24;      // of the clauses are about what the vocabulary does not have
+constexpr double enoughAmongSome = 6;
+constexpr double mostlyStrange = 0.45;
+constexpr double enoughAmongMost = 12;
 constexpr double fragmentShare = 0.99;  // nothing but vocabulary
 
 // Everyday words that nearly always mean parts of a plant where botany is spoken beside them. Others of the vocabulary are parts of
@@ -33,6 +38,14 @@ bool isPlainlyOfPlants(std::string_view word) {
   return isOneOf(word, {"leaf", "leaves", "foliage", "flower", "flowers", "fruit", "fruits", "seed", "seeds", "葉", "叶", "花", "果", "種", "种"});
 }
 bool isBody(const Concept& organ) { return isOneOf(organ.name, {"stem", "branch", "trunk", "root", "bark", "thorn"}); }
+
+// People speak of their plants: "my plant has opposite leaves".
+bool isPronoun(std::string_view word) {
+  return isOneOf(word, {"i", "my", "we", "our", "us", "me", "you", "your", "he", "she", "his", "her", "him", "they", "them", "我", "你", "您", "他", "她"});
+}
+
+// 這棵, 該種: which plant is meant.
+bool pointsAt(std::string_view word) { return isOneOf(word, {"這", "这", "該", "该", "此", "其", "它", "棵", "株", "款", "these", "those"}); }
 
 bool isLatin(const Token& token) { return token.kind == TokenKind::Word; }
 
@@ -96,6 +109,10 @@ bool ParagraphReader::isUse(std::size_t i) const {
 void ParagraphReader::weighForeign(const Found& f) {
   const std::string& field = f.conceptAs("foreign")->name;
   if ((field == "nature" && isHabitat(f.first)) || (field == "medicine" && isUse(f.first))) return;
+  if (isPronoun(f.phrase->words.front())) {
+    pronounSeen_ = true;
+    return;
+  }
   std::string words;
   for (const std::string& word : f.phrase->words) words += word + " ";
   if (foreignSeen_.insert(words).second) evidence_ -= foreignThing;
@@ -104,8 +121,20 @@ void ParagraphReader::weighForeign(const Found& f) {
 bool ParagraphReader::isKnown(std::size_t i) const {
   const Token& token = tokens_[i];
   if (token.kind == TokenKind::Number || token.kind == TokenKind::Sign) return true;
-  if (isFiller(token.text) || countedBy(i).end != 0 || isAny(i, {"merous", "absent", "present", "minute", "row", "rows", "series", "ranks", "equal", "unequal", "free", "distinct", "thin", "thick", "ones", "minutely", "above", "below", "long", "diverging", "divergence", "diverge", "angle", "angles", "palmately", "pinnately", "digitately", "node", "nodes", "small", "large", "medium", "tall", "slender", "夾", "夹", "角"}) || !qualifierOf(token.text).empty() || negates(token.text) || numberAt(tokens_, i)) return true;
+  if (isFiller(token.text) || countedBy(i).end != 0 || isAny(i, {"merous", "absent", "present", "minute", "row", "rows", "series", "ranks", "equal", "unequal", "free", "distinct", "thin", "thick", "ones", "minutely", "above", "below", "growth", "habit", "long", "diverging", "divergence", "diverge", "angle", "angles", "palmately", "pinnately", "digitately", "node", "nodes", "small", "large", "medium", "tall", "slender", "夾", "夹", "角"}) || !qualifierOf(token.text).empty() || negates(token.text) || numberAt(tokens_, i)) return true;
   return false;
+}
+
+// Terms of the vocabulary, joined by little words, and no sentence: "opposite", "simple, entire or serrate".
+bool ParagraphReader::isNothingButTerms() const {
+  constexpr std::size_t most = 10;
+  if (tokens_.size() > most) return false;
+  for (std::size_t i = 0; i < tokens_.size();) {
+    const bool joins = tokens_[i].kind == TokenKind::Sign || isAny(i, {"or", "and", "to", "或", "至", "和"}) || !qualifierOf(tokens_[i].text).empty();
+    if (!joins && !hasTraitMeaning(i)) return false;
+    i = found_[i] ? found_[i].end : i + 1;
+  }
+  return !tokens_.empty();
 }
 
 // The sentences that say something; where a plant grows or what it is good for may be told beside them at any length.
@@ -183,13 +212,55 @@ bool ParagraphReader::isTold(const std::vector<Stretch>& stretches) const {
   return false;
 }
 
+// Whether a clause is about something that the vocabulary does not have: "the design shows a lily", 盾面銀色.
+bool ParagraphReader::beginsStrangely(std::size_t first, std::size_t end) const {
+  std::size_t at = first;
+  while (at < end && (tokens_[at].kind == TokenKind::Sign || tokens_[at].kind == TokenKind::Number || (!found_[at] && (isKnown(at) || pointsAt(tokens_[at].text))))) ++at;
+  if (at == end) return false;
+  const bool other = !found_[at] || found_[at].conceptAs("foreign") != nullptr;
+  const std::string_view word = tokens_[at].text;
+  if (!isHan(at)) return other && word.size() > 2 && !looksLikeATerm(word) && !word.ends_with("ing") && !word.ends_with("er") && !isOneOf(word, {"growth", "dense", "loose", "stout"});
+  const bool alone = at + 1 == end || tokens_[at + 1].kind != TokenKind::Han;
+  return other && !alone && !found_[at + 1];
+}
+
+// How many of the clauses there are so; none where it is a single one in the middle.
+double ParagraphReader::strangeShare(const std::vector<Stretch>& stretches) const {
+  double strange = 0;
+  double all = 0;
+  bool atFirst = false;
+  for (const Stretch& stretch : stretches) {
+    std::size_t first = stretch.first;
+    for (std::size_t i = stretch.first; i < stretch.end; ++i) {
+      if (i + 1 < stretch.end && !isAny(i, {",", ";", ":", "、", "。", "."})) continue;
+      if (i > first) {
+        const bool begins = beginsStrangely(first, i);
+        atFirst = atFirst || (begins && all == 0);
+        strange += begins ? 1 : 0;
+        all += 1;
+      }
+      first = i + 1;
+    }
+  }
+  return strange == 0 || (strange == 1 && !atFirst) ? 0 : strange / all;
+}
+
+// Whether the clauses speak of other things than plants, and too little is said that only botany says.
+bool ParagraphReader::isAboutStrangeThings(const std::vector<Stretch>& stretches) const {
+  const double strange = strangeShare(stretches);
+  const bool namesPlant = namedAt_.contains(&organNamed("plant"));
+  return (strange >= someStrange && evidence_ < enoughAmongSome && !namesPlant) || (strange >= mostlyStrange && evidence_ < enoughAmongMost);
+}
+
 bool ParagraphReader::isAboutAPlant() const {
   if (result_.traits.empty() && result_.denials.empty()) return false;
   const std::vector<Stretch> telling = tellingSentences();
   const double share = knownShare(telling);
+  if (bareTerms_) return true;
+  if (isAboutStrangeThings(telling)) return false;
   // "Leaves opposite", 對生: everyday words too, where there are no others.
-  if (foreignSeen_.empty() && share >= fragmentShare && (organSeen_ || bodySeen_ || evidence_ >= strongTerm) && (strongSeen_ || !isTold(telling))) return true;
-  if (evidence_ < (foreignSeen_.empty() ? enoughEvidence : enoughBesidesForeign)) return false;
+  if (foreignSeen_.empty() && share >= fragmentShare && (organSeen_ || bodySeen_ || evidence_ >= strongTerm) && (strongSeen_ || organSeen_ || !isTold(telling))) return true;
+  if (evidence_ < (foreignSeen_.empty() ? enoughEvidence : enoughBesidesForeign) + (pronounSeen_ ? pronoun : 0)) return false;
   if (!strongSeen_ && (isTold(telling) || share < leastEverydayShare)) return false;
   // "blade suborbiculate to ovate-cordate": no organ that only plants have, but words that only botany has.
   const bool manyTerms = strongTerms_ >= 3 && foreignSeen_.empty() && share >= bodyShare;

@@ -47,12 +47,6 @@ std::size_t ParagraphReader::readCountOfOrganBefore(std::size_t i, const NumberR
 // Adjectives between a number and what it counts: "2 slightly exserted stamens", 2片大苞片, 2下垂胚珠. Where the organ stands; `from`
 // where none does.
 std::size_t ParagraphReader::afterAdjectives(std::size_t from) const {
-  const auto looksAdjectival = [&](std::size_t k) {
-    if (tokens_[k].kind != TokenKind::Word || found_[k]) return false;
-    for (const std::string_view ending : {"ly", "ed", "ing", "ous", "ate", "ose", "ar", "ic", "ent", "oid", "ish", "less", "y"})
-      if (tokens_[k].text.size() > 4 && tokens_[k].text.ends_with(ending)) return true;
-    return isAny(k, {"large", "small", "long", "short", "thin", "thick", "slender", "tiny", "equal", "unequal", "free", "stout", "minute"});
-  };
   constexpr std::size_t most = 9;
   for (std::size_t at = from; at < tokens_.size() && at < from + most;) {
     if (nounAt(at) != nullptr) return at;

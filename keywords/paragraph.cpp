@@ -20,6 +20,7 @@ const Concept& organNamed(std::string_view name) {
 ParagraphReader::ParagraphReader(std::string_view text, std::uint32_t firstByte, const TokenList& list, const Concept* organBefore)
     : text_(text), firstByte_(firstByte), tokens_(list.tokens), found_(findPhrases(list.tokens)) {
   scope_.organ = organBefore;
+  bareTerms_ = organBefore == nullptr && isNothingButTerms();
 }
 
 bool ParagraphReader::isCapital(std::size_t i) const {
@@ -64,6 +65,7 @@ std::size_t ParagraphReader::step(std::size_t i) {
   const Found& f = found_[i];
   if (!f) return i + 1;
   if (f.conceptAs("foreign") != nullptr) weighForeign(f);
+  if (f.conceptAs("stop") != nullptr) noteScar(i);
   if (f.conceptAs("which") != nullptr && f.as("organ") == nullptr) noteWhich(i);
   if (f.conceptAs("organ") != nullptr) noteNoun(i);
   const std::size_t traits = result_.traits.size() + result_.denials.size();

@@ -33,6 +33,8 @@ struct Scope {
   bool commaSincePlace = false;
   const Concept* container = nullptr;  ///< "racemes of 5-12 flowers": the racemes, when the flowers were named last
   const Concept* member = nullptr;     ///< 花組成繖房花序: the flowers, when the inflorescence was named last
+  const Concept* host = nullptr;       ///< "blade with glands near base, margin serrate": the blade, when the glands were named last
+  bool whichInSegment = false;         ///< 中部膨大，長5公分: `which` holds until the comma
   bool stranger = false;  ///< a part that the vocabulary does not have is spoken of: "connectives 2-4 mm"
 };
 
@@ -97,6 +99,9 @@ class ParagraphReader {
   [[nodiscard]] bool isPlantNoun(std::size_t i) const;
   [[nodiscard]] bool isFlowerSpokenOf() const;
   [[nodiscard]] bool isPlaceOnly(std::size_t i) const;
+  [[nodiscard]] bool isGoal(std::size_t i) const;
+  [[nodiscard]] bool isOfPlaceBefore(std::size_t i) const;
+  [[nodiscard]] bool looksAdjectival(std::size_t i) const;
   [[nodiscard]] bool isPlaceOfTermBefore(std::size_t i) const;
   [[nodiscard]] bool startsALine(std::size_t i) const;
   [[nodiscard]] bool isChained(std::size_t i) const;
@@ -107,6 +112,7 @@ class ParagraphReader {
   void noteBracket(std::size_t i);
   [[nodiscard]] bool isStranger(std::size_t i, std::size_t end) const;
   void noteStranger(std::size_t i);
+  void noteScar(std::size_t i);
   [[nodiscard]] const Concept& stalkOf(const Concept& stalk) const;
   [[nodiscard]] const Concept& stipeOf(const Concept& stipe) const;
   [[nodiscard]] std::size_t afterExcept(std::size_t i) const;
@@ -131,6 +137,7 @@ class ParagraphReader {
   [[nodiscard]] bool isOfAnotherOrgan(const Category& category, const Concept* organ, bool named) const;
   [[nodiscard]] bool isAboutHairs(std::size_t end) const;
   [[nodiscard]] bool isPredicateBasal(std::size_t i) const;
+  [[nodiscard]] bool isAboutTheUnnamed(std::size_t i) const;
   [[nodiscard]] bool speaksAsTerm(std::size_t i) const;
   [[nodiscard]] bool saysNothingOf(const Meaning& meaning, std::size_t i, const Concept* organ, const Concept* place) const;
   [[nodiscard]] std::optional<Meaning> deeperCut(std::size_t i, const Meaning& meaning) const;
@@ -205,7 +212,11 @@ class ParagraphReader {
   [[nodiscard]] Stretch tellingClauses() const;
   [[nodiscard]] bool isTold(const std::vector<Stretch>& stretches) const;
   [[nodiscard]] bool isUse(std::size_t i) const;
+  [[nodiscard]] bool beginsStrangely(std::size_t first, std::size_t end) const;
+  [[nodiscard]] double strangeShare(const std::vector<Stretch>& stretches) const;
+  [[nodiscard]] bool isAboutStrangeThings(const std::vector<Stretch>& stretches) const;
   [[nodiscard]] bool isAboutAPlant() const;
+  [[nodiscard]] bool isNothingButTerms() const;
   [[nodiscard]] bool isKnown(std::size_t i) const;
   [[nodiscard]] std::vector<bool> tokensOfTraits() const;
   [[nodiscard]] double knownShare() const;
@@ -230,11 +241,14 @@ class ParagraphReader {
   LastCount lastCount_;
   std::size_t sizeEnd_ = 0;        // where the last size ended, and
   std::string sizeQualifier_;      // how it was meant
+  std::size_t placeOnlyEnd_ = 0;   // where the last organ ended that was only named to place or compare another
   bool plantInSentence_ = false;
   bool plantSeen_ = false;  // a life form, a duration of the whole
   std::map<const Concept*, std::size_t> namedAt_;      // where each organ was named last
   std::vector<std::pair<std::size_t, std::string>> organFrom_;  // which organ was spoken of from which token on, for unknown words
   double evidence_ = 0;
+  bool bareTerms_ = false;  // "opposite", "simple, entire": nothing but a few terms
+  bool pronounSeen_ = false;
   bool unsure_ = false;
   bool organSeen_ = false;   // an organ that only plants have
   bool bodySeen_ = false;    // a stem, a branch

@@ -93,11 +93,12 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   const bool isMeasuredItself = found_[i].end < tokens_.size() && tokens_[found_[i].end].kind == TokenKind::Number;  // "in racemes 5-10 cm long"
   std::size_t before = i - 1;
   if (before > 0 && isAny(before, {"the", "its", "each", "a"})) --before;
-  while (before > 0 && isAny(before, {"lower", "upper", "young", "basal", "middle", "old", "lateral", "leaf", "short", "long", "spur", "juvenile", "fertile", "sterile", "flowering", "vegetative", "new",
-                                      "very", "leafless", "slender", "stout", "current", "previous", "year", "second", "adult", "subtending", "ultimate", "leafy", "terminal", "main", "mature", "same", "opposite"}))
+  while (before > 0 && (looksAdjectival(before) || isAny(before, {"lower", "upper", "young", "basal", "middle", "old", "lateral", "leaf", "short", "long", "spur", "juvenile", "fertile", "sterile", "flowering", "vegetative", "new",
+                                      "very", "leafless", "slender", "stout", "current", "previous", "year", "second", "adult", "subtending", "ultimate", "leafy", "terminal", "main", "mature", "same", "opposite"})))
     --before;
   if (before > 0 && isAny(before, {"the", "its", "their"})) --before;  // "in the axils of the upper leaves"
   if (isHan(i) && isAny(before, {"每", "各"})) return scope_.organInSentence;
+  if (isGoal(i)) return scope_.organInSentence;
   const std::size_t behind = found_[i].end;  // 莖下部者3-4枚輪生: which of the leaves
   if (isHan(i) && isAny(behind, {"上", "下", "中", "基", "頂", "顶"}) && is(behind + 1, "部") && is(behind + 2, "者")) return scope_.organInSentence;
   const bool tipOf = isHan(i) && last_.end == i && last_.kept && isAny(found_[i].end, {"端", "頂", "顶", "梢"});  // 單生莖端
@@ -112,13 +113,26 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   if (isAny(before, {"without", "lacking", "no", "無", "无", "缺"}) && !is(i, "毛")) return true;
   if (before > 0 && is(before, "具") && isAny(before - 1, {"不", "未"})) return true;
   if (isAny(before, {"與", "与"}) && isAny(found_[i].end, {"呈", "成", "夾", "夹", "間", "间", "等", "對", "对", "同"})) return true;
-  if (isAny(before, {"than", "to", "與", "与", "和", "短", "比", "較", "较", "似", "先", "exceeding", "於", "于", "near", "towards", "from", "among", "between", "above", "below", "on", "after", "before", "per", "until", "subtending", "opposite"}) && !isMeasuredItself) {
+  if (isAny(before, {"than", "to", "與", "与", "和", "短", "比", "較", "较", "似", "先", "exceeding", "於", "于", "near", "towards", "from", "among", "between", "above", "below", "on", "after", "before", "per", "until", "subtending", "opposite"}) && (!isMeasuredItself || isAny(before, {"from", "than", "exceeding"}))) {
     const bool afterTo = is(before, "to") && before > 0 && nounAt(i)->name == "plant" && found_[before - 1];  // "shrubs to small trees"
     return scope_.organInSentence && !afterTo && !(isAny(before, {"和", "與", "与"}) && before > 0 && (nounAt(before - 1) != nullptr || scope_.organEnd == before));
   }
   if (!scope_.organInSentence || isMeasuredItself) return false;
   if (before > 0 && is(before, "of") && isAny(before - 1, {"pairs", "pair", "whorls", "clusters", "fascicles", "consisting", "composed"})) return false;
   return isAny(before, {"of", "in", "at", "by"}) && nounAt(i) != nullptr && nounAt(i)->name != "inflorescence";
+}
+
+// 貼生至花冠裂片, 伸出花冠: what something reaches or stands out from.
+bool ParagraphReader::isGoal(std::size_t i) const {
+  if (!isHan(i) || i < 2 || isOneOf(nounAt(i)->name, {"plant", "inflorescence", "flower"})) return false;
+  const bool out = isAny(i - 1, {"出", "過", "过"}) && isAny(i - 2, {"露", "伸", "突", "超", "高", "挺", "長", "长"});
+  return out || (is(i - 1, "至") && !hasTraitMeaning(i));
+}
+
+// 花冠裂片 in 貼生至花冠裂片的基部: the rest of such a place.
+bool ParagraphReader::isOfPlaceBefore(std::size_t i) const {
+  if (placeOnlyEnd_ == 0 || !isHan(i)) return false;
+  return i == placeOnlyEnd_ || (i == placeOnlyEnd_ + 1 && isAny(placeOnlyEnd_, {"的", "之"}));
 }
 
 bool ParagraphReader::isPlaceOfTermBefore(std::size_t i) const {
@@ -205,6 +219,7 @@ void ParagraphReader::noteSign(std::size_t i) {
   if (isAny(i, {",", "、"})) {
     scope_.subjectInSegment = false;
     scope_.commaSincePlace = true;
+    if (scope_.whichInSegment) scope_.which.clear();
   }
   if (sentence || isAny(i, {";", "；", ","})) noteStranger(i);
 }
@@ -234,8 +249,9 @@ void ParagraphReader::noteNoun(std::size_t i) {
   }
   if (noun->name == "stipe" && !isHan(i)) return noteOrgan(i, stipeOf(*noun));
   if (noun->name != "stalk") return noteOrgan(i, *noun);
-  // 具短柄 says that there is one; at the begin of a clause its own statements follow.
-  if (isHan(i) && i > 0 && tokens_[i - 1].kind != TokenKind::Sign) return;
+  // 具短柄 says that there is one; at the begin of a clause its own statements follow, as in 具肉質柄，長約7公分.
+  const bool measured = is(found_[i].end, ",") && isAny(found_[i].end + 1, {"長", "长"});
+  if (isHan(i) && i > 0 && tokens_[i - 1].kind != TokenKind::Sign && !measured) return;
   noteOrgan(i, stalkOf(*noun));
 }
 
@@ -253,7 +269,13 @@ bool ParagraphReader::isNamedAgain(std::size_t i, const Concept& organ) const {
 void ParagraphReader::noteOrgan(std::size_t i, const Concept& organ) {
   weighNoun(i, organ);
   namedAt_[&organ] = i;
-  if (isPlaceOnly(i)) return;
+  if (isPlaceOnly(i) || isOfPlaceBefore(i)) {
+    placeOnlyEnd_ = found_[i].end;
+    return;
+  }
+  // "Panicles terminal, branches racemose": the panicle's own.
+  const bool ofInflorescence = is(i, "branches") && scope_.organ != nullptr && scope_.organ->name == "inflorescence" && scope_.organInSentence && i > 0 && is(i - 1, ",") && hasTraitMeaning(found_[i].end);
+  if (ofInflorescence) return;
   const bool isMeasuredAgainst = isAny(found_[i].end, {"呈", "成", "夾", "夹", "間", "间", "之", "的", "等", "對", "对", "同"});
   const bool together = !isMeasuredAgainst && i > 0 && isAny(i - 1, {"and", "及", "和", "與", "与"}) && scope_.organEnd == i - 1 && scope_.organ != nullptr && scope_.organ != &organ;
   const Concept* partner = together ? scope_.organ : nullptr;
@@ -270,14 +292,18 @@ void ParagraphReader::noteOrgan(std::size_t i, const Concept& organ) {
   const bool gathered = organ.name == "inflorescence" && in > 0 && is(in - 1, "in") && scope_.organ != nullptr && scope_.organ->name == "flower" && scope_.subjectInClause;
   const Concept* member = madeOf || gathered ? scope_.organ : nullptr;
   const Concept* container = ofFlowers || ofLeaf ? scope_.organ : nullptr;
-  scope_ = {&organ, partner, nullptr, nullptr, whichBefore(i), found_[i].end, true, isSubject, true, false, container, member};
+  const bool minor = isOneOf(organ.name, {"gland", "hair", "seta", "lenticel"});
+  const Concept* host = minor && scope_.organInSentence && scope_.organ != nullptr && i > 0 && tokens_[i - 1].kind != TokenKind::Sign ? scope_.organ : nullptr;
+  scope_ = {&organ, partner, nullptr, nullptr, whichBefore(i), found_[i].end, true, isSubject, true, false, container, member, host};
   organFrom_.emplace_back(i, organ.name);
 }
 
 void ParagraphReader::notePiece(std::size_t i, const Concept& piece) {
   // "wings", "teeth", "scale" are no pieces of a plant before any of its organs was named.
   const bool isWeak = found_[i].as("organ")->everyday && namedAt_.empty() && scope_.organ == nullptr && !startsSentence(i);
-  if (isWeak || isPlaceOnly(i)) return;
+  if (isOfPlaceBefore(i)) placeOnlyEnd_ = found_[i].end;
+  const bool bareTube = is(i, "管") && found_[i].end == i + 1 && !(i > 0 && tokens_[i - 1].kind == TokenKind::Sign);  // 導管
+  if (isWeak || isPlaceOnly(i) || placeOnlyEnd_ == found_[i].end || bareTube) return;
   const Concept* owner = ownerOf(piece, i);
   if (!found_[i].as("organ")->everyday) weighNoun(i, *owner);
   scope_.organ = owner;
@@ -303,6 +329,11 @@ void ParagraphReader::notePlace(std::size_t i, const Concept& place) {
   if (isPlaceOfTermBefore(i)) {
     scope_.commaSincePlace = true;
     return;
+  }
+  if (isOfPlaceBefore(i)) return;
+  if (scope_.host != nullptr) {
+    scope_.organ = scope_.host;
+    scope_.host = scope_.piece = nullptr;
   }
   if (!found_[i].as("organ")->everyday) {  // 葉緣 names the leaf too
     evidence_ += 1;
@@ -340,11 +371,12 @@ void ParagraphReader::noteWhich(std::size_t i) {
   const bool opensSegment = i == 0 || isAny(i - 1, {",", ";", "、", "；"}) || (scope_.organ != nullptr && scope_.organEnd == i);
   if (!opensSegment || !isHan(i) || nounAt(end) != nullptr || !scope_.organInSentence) return;
   scope_.which = found_[i].conceptAs("which")->name;
+  scope_.whichInSegment = true;
 }
 
 void ParagraphReader::enterLeaf(std::size_t end) {
   const std::string which = scope_.organ != nullptr && scope_.organ->name == "leaf" ? scope_.which : "";
-  scope_ = {&organNamed("leaf"), nullptr, nullptr, nullptr, which, end, true, true, true, false, nullptr, nullptr};
+  scope_ = {&organNamed("leaf"), nullptr, nullptr, nullptr, which, end, true, true, true, false, nullptr, nullptr, nullptr};
   namedAt_[scope_.organ] = end;
 }
 

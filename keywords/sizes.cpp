@@ -21,8 +21,8 @@ bool ParagraphReader::isHeightOfPlant(const Size& size) const {
   return namedAt_.empty() || namedAt_.contains(&organNamed("plant")) || plantSeen_;
 }
 
-// "adnate to the petiole for 1-2 mm": how far something reaches is no size of it.
-bool ParagraphReader::isExtent(std::size_t first) const { return first > 0 && is(first - 1, "for"); }
+// "adnate to the petiole for 1-2 mm", "free from ovary 2-4 mm": how far something reaches is no size of it.
+bool ParagraphReader::isExtent(std::size_t first) const { return first > 0 && (is(first - 1, "for") || (placeOnlyEnd_ == first && !isHan(first - 1))); }
 
 std::size_t ParagraphReader::readSizes(std::size_t i) {
   const std::vector<Size> sizes = sizesAt(tokens_, found_, i);

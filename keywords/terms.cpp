@@ -93,7 +93,8 @@ const Meaning* ParagraphReader::meaningFor(const Found& f, const Concept* organ,
     const bool fits = accepts(*m.category, organ);
     if (fits && ofOrgan && m.category->ownOrgan && own == nullptr) own = &m;
     else if (fits && m.category->part.empty() && whole == nullptr) whole = &m;
-    if (fits && !m.category->part.empty() && loose == nullptr) loose = &m;
+    const bool ofStalk = organ != nullptr && organ->name == "petiole" && m.category->part == "base";  // 葉柄短，圓形: the leaf is
+    if (fits && !ofStalk && !m.category->part.empty() && loose == nullptr) loose = &m;
     if (!fits && other == nullptr) other = &m;
   }
   if (whole != nullptr) return whole;
@@ -190,10 +191,12 @@ void ParagraphReader::keepTerm(std::size_t i, const Meaning& meaning, const Subj
   // 節片倒卵形: a flat shape said of a stem itself stays with it.
   const bool ofStemItself = organ != nullptr && category.property == "shape" && !attributive && now.linked && contains(category.notOrgans, organ->name);
   const bool takesDefault = organ == nullptr || category.ownOrgan || perennial || (!ofStemItself && (!accepts(category, organ) || (ofForm && isBody(*organ) && !fitsBody)));
+  // Leaves stand opposite, where no sentence names what does.
+  const bool ofNoneNamed = organ != nullptr && category.property == "arrangement" && organ->name == "branch" && !scope_.organInSentence && !attributive;
   // Stems in a tuft are the habit of a plant, leaves in a tuft an arrangement.
   const bool tuft = organ != nullptr && isOneOf(organ->name, {"stem", "plant"}) && category.property == "arrangement" && meaning.entry->name == "fascicled" && (now.linked || attributive);
   const bool placeHolds = place != nullptr && isOneOf(place->name, {"apex", "base"}) && category.property == "shape" && (placeNamed || !scope_.commaSincePlace);
-  Trait trait = traitAt(f.first, f.end, takesDefault ? category.defaultOrgan : organ->name, placeHolds ? place->name : category.property);
+  Trait trait = traitAt(f.first, f.end, takesDefault || ofNoneNamed ? category.defaultOrgan : organ->name, placeHolds ? place->name : category.property);
   trait.value = meaning.entry->name;
   if (tuft) {
     trait.organ = organ->name;
@@ -209,9 +212,23 @@ void ParagraphReader::keepTerm(std::size_t i, const Meaning& meaning, const Subj
     return;
   }
   if (category.property == "form" && takesDefault) trait.organ = "flower";
+  // 葉柄短，橢圓形，長5公分: the blade is what is measured, too.
+  const bool backToBlade = takesDefault && !attributive && organ != nullptr && organ->name == "petiole" && isOutline(category, *meaning.entry);
   const bool inDigits = category.property == "type" && trait.value == "trifoliolate" && tokens_[f.first].kind == TokenKind::Number && tokens_[f.end - 1].kind == TokenKind::Word;
   keep(std::move(trait), attributive);
+  if (backToBlade) enterLeaf(f.end);
   if (inDigits) addCount(f.first, f.end, "leaflet", "", {{}, 3, 3, {}, f.end, false}, {});  // "3-foliolate" is a number too
+}
+
+// 蛇頭披針形, "wood-shaped heads ovate": where no organ was named at all, what stands before a term in its clause may be what it is about.
+bool ParagraphReader::isAboutTheUnnamed(std::size_t i) const {
+  if (!namedAt_.empty() || scope_.organ != nullptr) return false;
+  for (std::size_t at = i; at > 0 && tokens_[at - 1].kind != TokenKind::Sign && !isSentenceEnd(at - 1); --at) {
+    const std::size_t k = at - 1;
+    const bool inPhrase = (k > 0 && found_[k - 1] && found_[k - 1].end > k) || (k > 1 && found_[k - 2] && found_[k - 2].end > k) || (k > 2 && found_[k - 3] && found_[k - 3].end > k);
+    if (!found_[k] && !inPhrase && !isKnown(k) && !looksAdjectival(k)) return true;
+  }
+  return false;
 }
 
 // A phrase that also names an organ is read as a term where it is that organ here (複葉, racemes), or only a term (分枝).
@@ -233,7 +250,7 @@ void ParagraphReader::startWithPlant(std::size_t i) {
 
 void ParagraphReader::enterPlant(std::size_t end) {
   plantInSentence_ = plantSeen_ = true;
-  scope_ = {&organNamed("plant"), nullptr, nullptr, nullptr, {}, end, true, false, true, false, nullptr, nullptr};
+  scope_ = {&organNamed("plant"), nullptr, nullptr, nullptr, {}, end, true, false, true, false, nullptr, nullptr, nullptr};
 }
 
 // "Leaves 3-5, basal": where they stand; in "basal leaves" and "basal and cauline" only which are meant.
@@ -245,6 +262,8 @@ bool ParagraphReader::isPredicateBasal(std::size_t i) const {
 
 // "bark ... lobed", 冠毛羽狀: a statement that cannot be about the subject of its clause is not handed on to the leaf either.
 bool ParagraphReader::isOfAnotherOrgan(const Category& category, const Concept* organ, bool named) const {
+  const bool ofTwig = !named && organ != nullptr && organ == scope_.organ && organ->name == "branch" && scope_.organInSentence && category.property == "shape" && tokens_[scope_.organEnd - 1].kind == TokenKind::Word;
+  if (ofTwig) return true;  // "branchlets slender, angled or subulate"
   if (named || organ == nullptr || organ != scope_.organ || !(scope_.subjectInClause || (organ->name == "bark" && scope_.organInSentence)) || accepts(category, organ) || category.ownOrgan) return false;
   return isOneOf(organ->name, {"bark", "root", "hair", "seta", "pappus", "vein", "awn", "thorn", "ovary", "gland", "lenticel", "style", "stigma", "stamen", "anther", "filament", "seed", "fruit", "rhizome", "pericarp", "stone", "sorus"});
 }
@@ -277,7 +296,9 @@ bool ParagraphReader::saysNothingOf(const Meaning& meaning, std::size_t i, const
   if (property == "duration" && isOneOf(value, {"annual", "biennial"}) && isOneOf(name, {"branch", "bark"})) return true;  // 二年生小枝
   if (property == "life form" && is(i, "herbaceous") && isOneOf(name, {"leaf", "leaflet", "bract", "sepal", "tepal", "stipule", "involucre"})) return true;  // a texture
   if (property == "habit" && is(found_[i].end, "base")) return true;  // "from a creeping base"
-  if (property == "shape" && name == "vein") return true;
+  if (name == "vein" && isOneOf(property, {"shape", "apex", "base"})) return true;
+  // 樹冠傘形: no umbel.
+  if (property == "type" && meaning.category->defaultOrgan == "inflorescence" && isHan(i) && isAny(found_[i].end - 1, {"形", "狀", "状"})) return isOneOf(name, {"plant", "trunk", "branch"}) && scope_.organInSentence;
   if (property == "branching" && i > 0 && is(i - 1, "每")) return true;
   if (property == "margin" && value == "lobed" && i > 0 && isAny(i - 1, {"或", "至", "到"}) && lastCount_.piece == "lobe" && lastCount_.end + 1 == i) return true;  // 3淺裂或中裂
   if (property == "margin" && isOneOf(value, {"lobed", "sinuate", "incised"})) return place != nullptr && isOneOf(place->name, {"base", "apex"});
@@ -308,7 +329,7 @@ void ParagraphReader::readTerm(std::size_t i) {
   const Concept* place = named != nullptr ? named : (attributive != nullptr ? nullptr : scope_.place);
   const Meaning* meaning = meaningFor(f, organ, place);
   if (meaning == nullptr || saysNothingOf(*meaning, i, organ, place)) return;
-  if (scope_.stranger && attributive == nullptr) return;
+  if (attributive == nullptr && (scope_.stranger || isAboutTheUnnamed(i))) return;
   if (isOfAnotherOrgan(*meaning->category, organ, attributive != nullptr || named != nullptr)) return;
   const std::optional<Meaning> deeper = deeperCut(i, *meaning);
   if (deeper) meaning = &*deeper;
@@ -317,14 +338,15 @@ void ParagraphReader::readTerm(std::size_t i) {
   const bool atItsPlace = place != nullptr && place->name == meaning->category->part;
   const bool ofBase = meaning->category->part == "base" || (meaning->category->part == "apex" && isOneOf(meaning->entry->name, {"rounded", "truncate", "bilobed"}));
   if (meaning->everyday && ofBase && !atItsPlace) return;  // "sepals unequal"
-  const bool inSentence = scope_.organInSentence || attributive != nullptr || named != nullptr;
+  const bool inSentence = bareTerms_ || scope_.organInSentence || attributive != nullptr || named != nullptr;
   if (meaning->everyday && (!inSentence || goesElsewhere(i, f.end)) && !(meaning->category->ownOrgan && f.as("organ") != nullptr)) return;
   // A place with statements of its own keeps what follows a comma only where the meaning is of that place.
   if (place != nullptr && named == nullptr && scope_.commaSincePlace && !atItsPlace) place = nullptr;
   const bool ofForm = isOneOf(meaning->category->property, {"arrangement", "shape", "type", "margin"});
   const bool bodyShape = organ != nullptr && organ->name == "plant" && meaning->category->property == "shape" && !isOutline(*meaning->category, *meaning->entry);
   if (ofForm && organ != nullptr && isBody(*organ) && meaning->everyday && !bodyShape && f.as("organ") == nullptr && meaning->category->property != "type") return;
-  if (meaning->category->property == "type" && meaning->category->defaultOrgan == "leaf" && meaning->everyday && (organ == nullptr || organ->name != "leaf")) return;
+  if (meaning->category->property == "type" && meaning->category->defaultOrgan == "leaf" && meaning->everyday && !bareTerms_ && (organ == nullptr || organ->name != "leaf")) return;
+  if (bareTerms_ && meaning->everyday && organ == nullptr && !isOneOf(meaning->category->property, {"arrangement", "type", "shape", "margin", "habit", "life form", "duration"})) return;  // "red": what is?
   // "terminal leaflet", 葉叢生枝端: the word says which leaflet, or where the leaves are.
   const bool saysWhere = meaning->category->property == "position" && organ != nullptr;
   if (!accepts(*meaning->category, organ) && (meaning->everyday || saysWhere)) return;
