@@ -97,7 +97,8 @@ struct AdjustOptions {
 /// length and its rays meet it is one object, else each is seen alone. Fails where no length has two different ends.
 [[nodiscard]] Result<Bundle> withKnownLengths(Bundle bundle, double click_px);
 
-/// The clicks of nodes with the centre lines beside them.
+/// The clicks of nodes with the centre lines beside them. Readings of ids that are no node of the bundle are places along stems
+/// that nobody clicked; they become points after all others.
 [[nodiscard]] Bundle withCentreLines(Bundle bundle, const RidgeReadings& readings);
 
 /// True size over the size the bundle has, all known lengths weighted by how well they are seen; 1 without any.
