@@ -124,6 +124,12 @@ std::size_t ParagraphReader::readCount(std::size_t i) {
     return range->end;
   }
   if (const std::size_t end = readCountedWord(i, *range)) return end;
+  // 葉3-5掌狀全裂: the lobes.
+  const bool ofLobes = isAny(range->end, {"掌", "羽"}) && isAny(range->end + 1, {"狀", "状"}) && scope_.organ != nullptr && isOneOf(scope_.organ->name, {"leaf", "leaflet"}) && found_[range->end].as("shape") != nullptr;
+  if (ofLobes) {
+    addCount(i, range->end, scope_.organ->name, "lobe", *range, "");
+    return range->end;
+  }
   if (const std::size_t end = readCountGoingOn(i, *range)) return end;
   if (const std::size_t end = readCountOfOrganBefore(i, *range)) return end;
   if (const std::size_t end = readCountOfOrganAfter(i, *range)) return end;

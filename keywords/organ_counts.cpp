@@ -33,7 +33,10 @@ std::size_t ParagraphReader::readCountOfOrganBefore(std::size_t i, const NumberR
   const bool endsWord = !isHan(i) || measure.end > range.end || !isHan(range.end) || next != nullptr || hasTraitMeaning(range.end) || isAny(range.end, {"或", "至", "及", "和", "簇", "束"});
   if (!endsWord) return 0;
   if (!isHan(measure.end) && isGathered(measure.end)) return 0;  // "in 1 or more clusters of 3-6"
-  if (next != nullptr && isHan(measure.end) && next != scope_.organ && isCountable(*next)) return 0;  // 具3花
+  const bool nextIsCounted = next != nullptr && i == scope_.organEnd && numberAt(tokens_, found_[measure.end].end).has_value();  // 雄蕊5雌蕊1
+  if (next != nullptr && isHan(measure.end) && next != scope_.organ && isCountable(*next) && !nextIsCounted) return 0;  // 具3花
+  const bool ofSomethingElse = i > 0 && isAny(i - 1, {"具", "有"}) && measure.end > range.end && isHan(measure.end) && next == nullptr && !hasTraitMeaning(measure.end);
+  if (ofSomethingElse && (isOneOf(noun.name, {"stem", "branch"}) || is(measure.end, "以"))) return 0;  // 莖具5條以上的溝
   if (isHan(measure.end) && i > 0 && isAny(i - 1, {"具", "有", "含"}) && afterAdjectives(measure.end) != measure.end && isCountable(*nounAt(afterAdjectives(measure.end)))) return 0;  // 具2下垂胚珠
   const bool ofPiece = &noun == scope_.piece;
   const Concept* per = is(measure.end, "per") ? nounAt(measure.end + 1) : nullptr;

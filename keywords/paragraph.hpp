@@ -245,6 +245,7 @@ class ParagraphReader {
   bool plantInSentence_ = false;
   bool plantSeen_ = false;  // a life form, a duration of the whole
   std::map<const Concept*, std::size_t> namedAt_;      // where each organ was named last
+  std::map<const Concept*, std::size_t> subjectAt_;    // and where not only to place or compare another
   std::vector<std::pair<std::size_t, std::string>> organFrom_;  // which organ was spoken of from which token on, for unknown words
   double evidence_ = 0;
   bool bareTerms_ = false;  // "opposite", "simple, entire": nothing but a few terms

@@ -124,9 +124,10 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
 
 // 貼生至花冠裂片, 伸出花冠: what something reaches or stands out from.
 bool ParagraphReader::isGoal(std::size_t i) const {
-  if (!isHan(i) || i < 2 || isOneOf(nounAt(i)->name, {"plant", "inflorescence", "flower"})) return false;
+  if (!isHan(i) || i < 2 || nounAt(i) == nullptr || isOneOf(nounAt(i)->name, {"plant", "inflorescence", "flower"})) return false;
   const bool out = isAny(i - 1, {"出", "過", "过"}) && isAny(i - 2, {"露", "伸", "突", "超", "高", "挺", "長", "长"});
-  return out || (is(i - 1, "至") && !hasTraitMeaning(i));
+  const bool alongVeins = is(i - 1, "沿") || (nounAt(i)->name == "vein" && isAny(found_[i].end, {"上", "腋"}));
+  return out || alongVeins || (is(i - 1, "至") && !hasTraitMeaning(i));
 }
 
 // 花冠裂片 in 貼生至花冠裂片的基部: the rest of such a place.
@@ -173,7 +174,7 @@ const Concept* ParagraphReader::ownerOf(const Concept& piece, std::size_t i) con
   if (scope_.organ != nullptr && canHave(*scope_.organ)) return scope_.organ;
   const Concept* latest = nullptr;
   std::size_t latestAt = 0;
-  for (const auto& [organ, at] : namedAt_)
+  for (const auto& [organ, at] : subjectAt_)
     if (canHave(*organ) && (latest == nullptr || at > latestAt)) {
       latest = organ;
       latestAt = at;
@@ -232,7 +233,7 @@ void ParagraphReader::noteNoun(std::size_t i) {
   if (role == "sub") return notePiece(i, *noun);
   if (role == "blade") {
     // The lamina of a ray floret is a piece of it.
-    if (isAny(i, {"lamina", "laminae", "blade", "blades"}) && scope_.organ != nullptr && scope_.organInSentence && isOneOf(scope_.organ->name, {"ray floret", "petal", "lip", "standard"}) && scope_.subjectInClause) {
+    if (isAny(i, {"lamina", "laminae", "blade", "blades"}) && scope_.organ != nullptr && scope_.organInSentence && isOneOf(scope_.organ->name, {"ray floret", "petal", "lip", "standard", "tepal"})) {
       scope_.piece = noun;
       scope_.place = nullptr;
       scope_.organEnd = found_[i].end;
@@ -273,6 +274,7 @@ void ParagraphReader::noteOrgan(std::size_t i, const Concept& organ) {
     placeOnlyEnd_ = found_[i].end;
     return;
   }
+  subjectAt_[&organ] = i;
   // "Panicles terminal, branches racemose": the panicle's own.
   const bool ofInflorescence = is(i, "branches") && scope_.organ != nullptr && scope_.organ->name == "inflorescence" && scope_.organInSentence && i > 0 && is(i - 1, ",") && hasTraitMeaning(found_[i].end);
   if (ofInflorescence) return;

@@ -213,7 +213,7 @@ void ParagraphReader::keepTerm(std::size_t i, const Meaning& meaning, const Subj
   }
   if (category.property == "form" && takesDefault) trait.organ = "flower";
   // 葉柄短，橢圓形，長5公分: the blade is what is measured, too.
-  const bool backToBlade = takesDefault && !attributive && organ != nullptr && organ->name == "petiole" && isOutline(category, *meaning.entry);
+  const bool backToBlade = takesDefault && !attributive && organ != nullptr && isOneOf(organ->name, {"petiole", "vein"}) && (isOutline(category, *meaning.entry) || category.property == "margin");
   const bool inDigits = category.property == "type" && trait.value == "trifoliolate" && tokens_[f.first].kind == TokenKind::Number && tokens_[f.end - 1].kind == TokenKind::Word;
   keep(std::move(trait), attributive);
   if (backToBlade) enterLeaf(f.end);
@@ -264,6 +264,7 @@ bool ParagraphReader::isPredicateBasal(std::size_t i) const {
 bool ParagraphReader::isOfAnotherOrgan(const Category& category, const Concept* organ, bool named) const {
   const bool ofTwig = !named && organ != nullptr && organ == scope_.organ && organ->name == "branch" && scope_.organInSentence && category.property == "shape" && tokens_[scope_.organEnd - 1].kind == TokenKind::Word;
   if (ofTwig) return true;  // "branchlets slender, angled or subulate"
+  if (organ != nullptr && organ->name == "vein" && isHan(scope_.organEnd) && !scope_.subjectInSegment) return false;  // 沿脈被毛，披針形: the leaf again
   if (named || organ == nullptr || organ != scope_.organ || !(scope_.subjectInClause || (organ->name == "bark" && scope_.organInSentence)) || accepts(category, organ) || category.ownOrgan) return false;
   return isOneOf(organ->name, {"bark", "root", "hair", "seta", "pappus", "vein", "awn", "thorn", "ovary", "gland", "lenticel", "style", "stigma", "stamen", "anther", "filament", "seed", "fruit", "rhizome", "pericarp", "stone", "sorus"});
 }
@@ -296,7 +297,10 @@ bool ParagraphReader::saysNothingOf(const Meaning& meaning, std::size_t i, const
   if (property == "duration" && isOneOf(value, {"annual", "biennial"}) && isOneOf(name, {"branch", "bark"})) return true;  // 二年生小枝
   if (property == "life form" && is(i, "herbaceous") && isOneOf(name, {"leaf", "leaflet", "bract", "sepal", "tepal", "stipule", "involucre"})) return true;  // a texture
   if (property == "habit" && is(found_[i].end, "base")) return true;  // "from a creeping base"
-  if (name == "vein" && isOneOf(property, {"shape", "apex", "base"})) return true;
+  if (name == "vein" && isOneOf(property, {"shape", "apex", "base"})) return scope_.subjectInSegment || property != "shape" || !isHan(i);
+  if (property == "shape" && isHan(i) && is(found_[i].end, "毛")) return true;  // 鱗片狀毛
+  if (property == "arrangement" && isOneOf(name, {"petiole", "pedicel", "peduncle", "petiolule"})) return true;  // 花梗較其對生葉短
+  if (property == "arrangement" && is(found_[i].end, "with") && name != "leaf") return true;  // "alternate with corolla lobes"
   // 樹冠傘形: no umbel.
   if (property == "type" && meaning.category->defaultOrgan == "inflorescence" && isHan(i) && isAny(found_[i].end - 1, {"形", "狀", "状"})) return isOneOf(name, {"plant", "trunk", "branch"}) && scope_.organInSentence;
   if (property == "branching" && i > 0 && is(i - 1, "每")) return true;
