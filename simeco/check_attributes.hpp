@@ -92,7 +92,7 @@ class AttributeCheck : protected ExpressionCheck {
     const auto* call = std::get_if<Call>(&expr.node);
     const bool isThing = call && (call->function == "vector" || call->function == "RGBA" || call->function == "MTRL" || call->function == "sphere" || call->function == "box");
     if (isThing || std::holds_alternative<Text>(expr.node)) return report_.error(expr.where, "'" + a.name + "' is a number");
-    const auto known = foldedWith(grammar_, a.value, {}, 0);
+    const auto known = foldedAlone(grammar_, a.value);
     if (!known) return;
     if (kind == ValueKind::Positive && !(*known > 0)) report_.error(expr.where, "'" + a.name + "' must be above 0");
     if (kind == ValueKind::NotNegative && !(*known >= 0)) report_.error(expr.where, "'" + a.name + "' must not be negative");

@@ -5,6 +5,7 @@
 #include "base/overloaded.hpp"
 #include "base/text.hpp"
 #include "simeco/check_fold.hpp"
+#include "simeco/fold.hpp"
 #include "simeco/report.hpp"
 #include "simeco/vocabulary.hpp"
 
@@ -119,7 +120,7 @@ class ExpressionCheck {
   }
   void binary(const Binary& n, SourceSpan where) {
     const bool divides = n.op == BinaryOp::Divide || n.op == BinaryOp::Remainder;
-    const auto divisor = divides ? foldedWith(grammar_, n.right, {}, 0) : std::nullopt;
+    const auto divisor = divides ? foldedAlone(grammar_, n.right) : std::nullopt;
     if (divisor && *divisor == 0) report_.error(grammar_.at(n.right).where, "division by zero");
     if (n.op == BinaryOp::Remainder || n.op == BinaryOp::Power) since11("operators such as % and ^", where);
     if (n.op == BinaryOp::And || n.op == BinaryOp::Or) since11("operators such as && and ||", where);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// The arithmetic of expressions, in one place, so that folding a constant and running an instruction give the same bits.
-/// Private to the room's program.cpp and engine.cpp.
+/// Private to fold, program and engine.
 
 #include "base/rng.hpp"
 #include "simeco/program.hpp"
@@ -22,6 +22,28 @@ namespace axil::simeco {
 
 /// Both sides truncated, the sign of the left (-7 % 3 is -1, but -6 % 3 is 0 as of whole numbers, never -0). `b` must not be 0 when truncated.
 [[nodiscard]] inline double remainder(double a, double b) { return std::fmod(truncated(a), truncated(b)) + 0.0; }
+
+/// The instruction of an operator that is no jump.
+[[nodiscard]] inline Op opOf(BinaryOp op) {
+  switch (op) {
+    case BinaryOp::Add: return Op::Add;
+    case BinaryOp::Subtract: return Op::Subtract;
+    case BinaryOp::Multiply: return Op::Multiply;
+    case BinaryOp::Divide: return Op::Divide;
+    case BinaryOp::Remainder: return Op::Remainder;
+    case BinaryOp::Power: return Op::Power;
+    case BinaryOp::Less: return Op::Less;
+    case BinaryOp::LessEqual: return Op::LessEqual;
+    case BinaryOp::Greater: return Op::Greater;
+    case BinaryOp::GreaterEqual: return Op::GreaterEqual;
+    case BinaryOp::Equal: return Op::Equal;
+    case BinaryOp::NotEqual: return Op::NotEqual;
+    case BinaryOp::And:
+    case BinaryOp::Or: break;
+  }
+  AXIL_ASSERT(false, "&& and || are jumps, not operators");
+  return Op::Add;
+}
 
 [[nodiscard]] inline bool compared(Op op, double a, double b) {
   switch (op) {

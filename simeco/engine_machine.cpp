@@ -105,7 +105,7 @@ double Machine::called(const Instruction& instruction, const double* arguments) 
 double Machine::hostFunction(std::span<const double> arguments) {
   if (!shared_->host->function) {
     giveUp(ErrorCode::BadInput, "func(" + std::to_string(static_cast<std::int64_t>(truncated(arguments[0]))) +
-                                    ", ...) is called, but this program offers no such function");
+                                    ", ...) is called, but nobody answers it; write the function into the view file beside the grammar, function: 0 0  0.5 1  1 0, or ask by a program that has it");
     return 0;
   }
   const Result<double> answer = shared_->host->function(static_cast<std::int64_t>(truncated(arguments[0])), arguments.subspan(1));

@@ -3,6 +3,7 @@
 #include "simeco/check_reach.hpp"
 #include "simeco/check_runaway.hpp"
 #include "simeco/derive.hpp"
+#include "simeco/fold.hpp"
 #include "simeco/lsystem_language.hpp"
 #include "simeco/lsystem_reader.hpp"
 #include "simeco/report.hpp"
@@ -93,7 +94,7 @@ class Checker {
 
   void derivationLength(ExprId id) {
     expression(id);
-    const auto steps = foldedWith(grammar_, id, {}, 0);
+    const auto steps = foldedAlone(grammar_, id);
     if (steps && *steps < 0) report_.error(grammar_.at(id).where, "the derivation length must not be negative", "0 gives the axiom");
     else if (steps && *steps > static_cast<double>(Limits{}.steps)) report_.warning(grammar_.at(id).where, "the derivation is limited to " + std::to_string(Limits{}.steps) + " steps", "write fewer, or raise the limit with --max-steps");
   }

@@ -6,7 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <numbers>
+#include <string>
+#include <utility>
 
 namespace axil::simeco {
 
@@ -140,11 +144,23 @@ Result<void> answerQueries(HostStep& step, const DeriveLSystemOptions& options) 
   return {};
 }
 
+/// `func(n, x)` as the n-th curve. A copy of the curves: an image of the string may ask later.
+std::function<Result<double>(std::int64_t, std::span<const double>)> functionsOf(std::vector<ResponseCurve> curves) {
+  return [curves = std::move(curves)](std::int64_t number, std::span<const double> arguments) -> Result<double> {
+    const std::string name = "func(" + std::to_string(number) + ", ...)";
+    if (number < 1 || number > std::ssize(curves) || curves[static_cast<std::size_t>(number - 1)].points.empty())
+      return fail(ErrorCode::BadInput, name + " is called, but the view file has no such function; write function: 0 0  0.5 1  1 0 into it, one line a function");
+    if (arguments.size() != 1) return fail(ErrorCode::BadInput, name + " takes one value");
+    return curves[static_cast<std::size_t>(number - 1)].at(arguments[0]);
+  };
+}
+
 }  // namespace
 
 Result<Derivation> deriveLSystem(const Grammar& grammar, const DeriveLSystemOptions& options) {
   DeriveOptions derivation = options.derive;
   if (derivation.plant >= grammar.plants.size()) return fail(ErrorCode::BadInput, "the grammar has no plant number " + std::to_string(derivation.plant + 1));
+  if (!derivation.host.function && !options.view.functions.empty()) derivation.host.function = functionsOf(options.view.functions);
   if (asks(grammar.plants[derivation.plant])) {
     derivation.host.betweenSteps = [&options](HostStep& step) -> Result<void> {
       if (auto answered = answerQueries(step, options); !answered) return answered;

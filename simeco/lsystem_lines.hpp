@@ -3,6 +3,7 @@
 /// The layers of the L-system parser, first: lines, keywords, comments, constants. Internal to the front end.
 
 #include "base/text.hpp"
+#include "simeco/fold.hpp"
 #include "simeco/lsystem_reader.hpp"
 #include "simeco/lsystem_scan.hpp"
 #include "simeco/report.hpp"
@@ -116,8 +117,8 @@ class LineParser : protected LSystemReader {
     for (std::size_t i = at_; i < limit_ && (isLetter(text_[i]) || isBlank(text_[i])); ++i)
       if (!isBlank(text_[i])) words += lower(text_[i]);
     // What other programs call it.
-    static const std::map<std::string_view, std::string_view> kOtherNames{{"omega", "axiom:"}, {"w", "axiom:"}, {"start", "start:"}, {"iterations", "derivation length:"},
-                                                                          {"steps", "derivation length:"}, {"end", "endlsystem"}, {"angle", "angle increment: in a .v file beside this one"}};
+    static const std::map<std::string_view, std::string_view> kOtherNames{{"omega", "Axiom:"}, {"w", "Axiom:"}, {"start", "Start:"}, {"iterations", "derivation length:"},
+                                                                          {"steps", "derivation length:"}, {"end", "endlsystem"}, {"ring", "ring Lsystem"}, {"angle", "angle increment: in a .v file beside this one"}};
     if (const auto other = kOtherNames.find(words); other != kOtherNames.end()) return "write " + std::string(other->second);
     std::string best;
     std::size_t fewest = words.size() / 4 + 1;
@@ -125,11 +126,18 @@ class LineParser : protected LSystemReader {
       std::string known;
       for (const char c : row.words)
         if (c != ' ' && c != ':') known += c;
-      if (row.words.ends_with(':') && words.starts_with(known)) return "the colon is missing: write " + std::string(row.words);
+      if (row.words.ends_with(':') && words.starts_with(known)) return "the colon is missing: write " + asWritten(row.words);
       const std::size_t edits = editDistance(std::string_view(words).substr(0, known.size() + 2), known);
       if (edits < fewest) fewest = edits, best = row.words;
     }
-    return best.empty() ? otherwise : "did you mean " + best + "?";
+    return best.empty() ? otherwise : "did you mean " + asWritten(best) + "?";
+  }
+  /// A keyword as people write it; the tables have the loosest form.
+  [[nodiscard]] static std::string asWritten(std::string_view words) {
+    static const std::map<std::string_view, std::string_view> kUsual{{"lsystem:", "Lsystem:"}, {"axiom:", "Axiom:"}, {"ring lsystem", "ring Lsystem"}, {"start:", "Start:"},
+                                                                     {"start each:", "StartEach:"}, {"end:", "End:"}, {"end each:", "EndEach:"}, {"end lsystem", "endlsystem"}};
+    const auto usual = kUsual.find(words);
+    return std::string(usual == kUsual.end() ? words : usual->second);
   }
   [[nodiscard]] bool atSection() const {
     return std::any_of(std::begin(kSections), std::end(kSections), [&](const SectionRow& row) { return sees(row.words); });
@@ -170,7 +178,7 @@ class LineParser : protected LSystemReader {
     const std::size_t begin = (skip(), at_);
     const ExprId id = expression();
     if (broken_) return std::nullopt;
-    const auto value = constantOf(id);
+    const auto value = foldedAlone(grammar_, id);
     if (!value || !std::isfinite(*value)) error(begin, at_, std::string(what) + " must be a constant number");
     return broken_ ? std::nullopt : value;
   }

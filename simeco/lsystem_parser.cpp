@@ -22,6 +22,7 @@ class LSystemParser : private RuleParser {
     grammar_.version.clear();
     grammar_.plants.emplace_back();
     bool first = true;
+    ended_ = source_.cutShort;
     while (skipLines(), !atTextEnd() || first) {
       if (!first && !sees("lsystem:")) {
         restOfLine();

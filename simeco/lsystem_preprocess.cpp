@@ -93,6 +93,7 @@ class Preprocessor {
     std::size_t comment = 0;
     for (std::size_t at = 0; at < clean.text.size() && !full_;) at = line(clean, at, comment);
     takeComments(clean, comment, clean.text.size(), 0);
+    result_.cutShort = result_.cutShort || clean.openComment || branches_.size() > outerBranches;
     if (clean.openComment) error(*clean.openComment, "this comment is never closed", "end it with */");
     while (branches_.size() > outerBranches) {
       error(branches_.back().where, "this #if has no #endif", "add a line #endif");

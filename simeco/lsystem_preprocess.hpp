@@ -26,6 +26,7 @@ class Preprocessed {
   std::string text;
   std::vector<PlacedComment> comments;
   std::vector<Diagnostic> diagnostics;
+  bool cutShort = false;   ///< a comment or an #if that is never closed may have taken what stood behind
 
   /// A diagnostic about bytes [begin, end) of `text`, placed in the file as written.
   [[nodiscard]] Diagnostic diagnostic(Severity severity, std::size_t begin, std::size_t end, std::string message, std::string hint) const;

@@ -59,26 +59,6 @@ std::size_t lengthOf(BinaryOp op, int level) {
   return 1;
 }
 
-double folded(BinaryOp op, double a, double b) {
-  switch (op) {
-    case BinaryOp::Add: return a + b;
-    case BinaryOp::Subtract: return a - b;
-    case BinaryOp::Multiply: return a * b;
-    case BinaryOp::Divide: return a / b;
-    case BinaryOp::Remainder: return std::fmod(std::trunc(a), std::trunc(b));
-    case BinaryOp::Power: return std::pow(a, b);
-    case BinaryOp::Less: return a < b;
-    case BinaryOp::LessEqual: return a <= b;
-    case BinaryOp::Greater: return a > b;
-    case BinaryOp::GreaterEqual: return a >= b;
-    case BinaryOp::Equal: return a == b;
-    case BinaryOp::NotEqual: return a != b;
-    case BinaryOp::And: return a != 0 && b != 0;
-    case BinaryOp::Or: return a != 0 || b != 0;
-  }
-  return 0;
-}
-
 }  // namespace
 
 const LSystemFunction* lsystemFunction(std::string_view name) {
@@ -288,6 +268,7 @@ ExprId LSystemReader::quotedText() {
   while (peek() != '"') {
     if (atEnd() || peek() == '\n') {
       error(begin, at_, "this text is not closed", "add the missing \"");
+      openText_ = true;
       return add(Text{words}, begin);
     }
     if (peek() == '\\' && at_ + 1 < limit_) {
@@ -327,28 +308,6 @@ ExprId LSystemReader::called(std::string function, std::size_t begin) {
     error(begin, at_, call.function + " takes " + (known->most == kManyArguments ? "at least " : "") + std::to_string(known->fewest) +
                           (known->fewest == 1 ? " argument, not " : " arguments, not ") + std::to_string(count));
   return add(std::move(call), begin);
-}
-
-std::optional<double> LSystemReader::constantOf(ExprId id) const {
-  const ExprNode& node = grammar_.at(id).node;
-  if (const auto* n = std::get_if<Number>(&node)) return n->value;
-  if (const auto* u = std::get_if<Unary>(&node)) {
-    const auto value = constantOf(u->operand);
-    if (!value) return std::nullopt;
-    return u->op == UnaryOp::Minus ? -*value : (*value == 0 ? 1.0 : 0.0);
-  }
-  if (const auto* b = std::get_if<Binary>(&node)) {
-    const auto left = constantOf(b->left);
-    const auto right = constantOf(b->right);
-    if (!left || !right) return std::nullopt;
-    return folded(b->op, *left, *right);
-  }
-  if (const auto* c = std::get_if<Conditional>(&node)) {
-    const auto condition = constantOf(c->condition);
-    if (!condition) return std::nullopt;
-    return constantOf(*condition != 0 ? c->yes : c->no);
-  }
-  return std::nullopt;
 }
 
 }  // namespace axil::simeco

@@ -53,8 +53,6 @@ class LSystemReader {
 
   // ---- expressions
   ExprId expression();
-  /// The value of an expression of literals.
-  [[nodiscard]] std::optional<double> constantOf(ExprId id) const;
   ExprId add(ExprNode node, std::size_t begin);
 
   // ---- statements
@@ -72,6 +70,7 @@ class LSystemReader {
   std::size_t at_ = 0;
   std::size_t limit_ = 0;
   bool broken_ = false;
+  bool openText_ = false;   ///< a text that is not closed was said; it takes what follows on its line
 
  private:
   ExprId conditional();

@@ -79,6 +79,7 @@ class RuleParser : protected HeaderParser {
       const std::size_t end = std::exchange(at_, begin);
       const std::string meant = keywordHint(kSections, hint);
       at_ = end;
+      ended_ = ended_ || meant.find("endlsystem") != std::string::npos;
       return error(begin, std::max(at, begin + 1), "this line is neither a rule nor a keyword: there is no -->", meant);
     }
     if (peek() == '=') errorHere("a single = gives a value, it does not compare", "write ==");

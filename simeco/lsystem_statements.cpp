@@ -53,7 +53,8 @@ Block LSystemReader::block() {
   while (!broken_) {
     skip();
     if (atEnd()) {
-      error(begin, begin + 1, "this { is never closed", "add the missing }");
+      // An open text has taken the } with it.
+      if (!openText_) error(begin, begin + 1, "this { is never closed", "add the missing }");
       break;
     }
     if (peek() == '}') break;

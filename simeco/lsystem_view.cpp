@@ -58,7 +58,7 @@ constexpr std::string_view kPassedOver[] = {
     "scale factor", "scale", "min zoom", "max zoom", "front distance", "back distance", "projection", "render mode", "z buffer",
     "cue range", "shade mode", "light", "light direction", "diffuse reflection", "ambient light", "viewpoint", "view reference point", "twist",
     "view", "surface ambient", "surface diffuse", "contour", "contours", "contour sides", "texture", "bsurface", "tsurface", "mesh",
-    "function", "function set", "color map", "colormap", "background", "background scene", "double buffer", "new frame", "box", "frame", "stroke",
+    "function set", "color map", "colormap", "background", "background scene", "double buffer", "new frame", "box", "frame", "stroke",
     "field of view", "font", "winding", "generate on view change", "corrected rotation", "cut", "concave polygons", "line caps", "initial contour",
     "initial color back", "terrain", "axis", "axes", "shininess", "specular", "material", "gradient map", "homomorphism", "module", "modules",
     "render", "capping", "screen size", "interactive mode", "environment", "file", "antialiasing", "shadow map", "shadows", "final", "display",
@@ -66,7 +66,7 @@ constexpr std::string_view kPassedOver[] = {
 
 class ViewReader {
  public:
-  explicit ViewReader(std::string_view text) : text_(text) {}
+  ViewReader(std::string_view text, const std::filesystem::path& folder) : text_(text), folder_(folder) {}
 
   ParsedView run() {
     std::string clean = withoutComments();
@@ -115,6 +115,7 @@ class ViewReader {
     else if (keyword == "color increment" || keyword == "colour increment") view_.colourIncrement = colour(1);
     else if (keyword == "color" || keyword == "colour") paint();
     else if (keyword == "surface") surface();
+    else if (keyword == "function") function(trimmed(value));
     else if (keyword == "line style") lineStyle();
     else if (keyword == "tapered lines") view_.taperedLines = onOff(true);
     else if (keyword == "interpretation past %") view_.pastCut = onOff(true);
@@ -126,7 +127,7 @@ class ViewReader {
 
   void unknown(const std::string& keyword, std::string_view) {
     static constexpr std::string_view kKnown[] = {"angle increment", "angle factor", "initial line width", "line width increment", "initial scale",
-                                                  "scale multiplier", "initial color", "color increment", "color", "surface", "tapered lines", "line style", "interpretation past %",
+                                                  "scale multiplier", "initial color", "color increment", "color", "surface", "function", "tapered lines", "line style", "interpretation past %",
                                                   "tropism", "torque", "tropism direction", "initial elasticity"};
     report_.warning(where_, "the setting '" + keyword + "' is not known and not used", didYouMean(keyword, kKnown));
   }
@@ -170,6 +171,31 @@ class ViewReader {
     result.model = std::string(values_[at].text);
     if (values_.size() > at + 1) result.scale = number(at + 1).value_or(1);
     view_.surfaces[values_[0].text[0]] = result;
+  }
+
+  /// `function: X Y X Y ...`, or the name of a function file beside the view file.
+  void function(std::string_view value) {
+    view_.functions.emplace_back();
+    if (values_.empty()) return error(where_.begin, where_.end, "a function is points or a file", "function: 0 0  0.5 1  1 0");
+    const std::size_t digit = values_[0].text.find_first_not_of("+-.");
+    const bool file = digit == std::string_view::npos || values_[0].text[digit] < '0' || values_[0].text[digit] > '9';
+    const auto curve = file ? functionFile(value) : responseCurve(numbers());
+    if (curve) view_.functions.back() = *curve;
+    else if (file) report_.warning(where_, curve.error().message, "func(" + std::to_string(view_.functions.size()) + ", x) has no answer");
+    else error(where_.begin, where_.end, curve.error().message, "function: 0 0  0.5 1  1 0");
+  }
+  [[nodiscard]] Result<ResponseCurve> functionFile(std::string_view name) const {
+    const std::filesystem::path path = folder_ / std::filesystem::path(name);
+    const bool below = std::filesystem::path(name).is_relative() && name.find("..") == std::string_view::npos;
+    if (!below) return fail(ErrorCode::BadInput, "the function file '" + std::string(name) + "' does not lie beside the view file");
+    const auto text = readFile(path);
+    if (!text) return text.failure();
+    return parseResponseCurve(*text);
+  }
+  std::vector<double> numbers() {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < values_.size(); ++i) all.push_back(number(i).value_or(0));
+    return all;
   }
 
   OldTropism& old() {
@@ -256,6 +282,7 @@ class ViewReader {
   }
 
   std::string_view text_;
+  const std::filesystem::path& folder_;
   LSystemView view_;
   Report report_;
   std::vector<Word> values_;
@@ -264,12 +291,12 @@ class ViewReader {
 
 }  // namespace
 
-ParsedView parseLSystemView(std::string_view text) { return ViewReader(text).run(); }
+ParsedView parseLSystemView(std::string_view text, const std::filesystem::path& folder) { return ViewReader(text, folder).run(); }
 
 Result<LSystemView> readLSystemView(const std::filesystem::path& path) {
   const auto text = readFile(path);
   if (!text) return text.failure();
-  ParsedView parsed = parseLSystemView(*text);
+  ParsedView parsed = parseLSystemView(*text, path.parent_path());
   if (!hasErrors(parsed.diagnostics)) return std::move(parsed.view);
   Error error{ErrorCode::BadInput, "the view file '" + path.string() + "' has mistakes; mend them or move it away", {}};
   for (const Diagnostic& d : parsed.diagnostics) error.details.push_back(formatDiagnostic(d, *text, path.filename().string()));

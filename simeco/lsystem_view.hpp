@@ -8,6 +8,7 @@
 #include "base/result.hpp"
 #include "base/source.hpp"
 #include "simeco/grammar.hpp"
+#include "simeco/response_curve.hpp"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -62,13 +63,15 @@ struct LSystemView {
   std::optional<OldTropism> oldTropism;
   std::map<int, glm::dvec4> colours;      ///< `color: 3 255 250 240`: sRGB 0 to 1 of some indices; the others are on the colour circle
   std::map<char, ViewSurface> surfaces;   ///< by letter
+  std::vector<ResponseCurve> functions;   ///< `func(n, x)` asks the n-th, counted from 1; one without points could not be read
 };
 
 struct ParsedView {
   LSystemView view;
   std::vector<Diagnostic> diagnostics;
 };
-[[nodiscard]] ParsedView parseLSystemView(std::string_view text);
+/// Function files that it names are looked for in `folder`; without one they cannot be read.
+[[nodiscard]] ParsedView parseLSystemView(std::string_view text, const std::filesystem::path& folder = {});
 
 /// The view file at `path`. Fails when it cannot be read, and with BadInput and the printed diagnostics when it has errors.
 [[nodiscard]] Result<LSystemView> readLSystemView(const std::filesystem::path& path);

@@ -1,63 +1,20 @@
 // A Grammar as SimEco text, in the layout that the thesis' program writes.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
-
 #include "simeco/language.hpp"
 #include "simeco/lsystem_language.hpp"
+#include "simeco/print_expressions.hpp"
+
+#include <utility>
 
 namespace axil::simeco {
 
+namespace printing {
 namespace {
-
-constexpr std::string_view kIndent = "    ";
-
-// What an expression is as an operand: the higher, the closer it binds.
-enum Binding { kChoice, kOr, kAnd, kCompare, kSum, kProduct, kUnary, kPower, kPrimary };
-
-struct OperatorText {
-  std::string_view text;
-  Binding binding;
-};
-// In the order of BinaryOp.
-constexpr std::array<OperatorText, 14> kOperators{{{"+", kSum},
-                                                   {"-", kSum},
-                                                   {"*", kProduct},
-                                                   {"/", kProduct},
-                                                   {"%", kProduct},
-                                                   {"^", kPower},
-                                                   {" < ", kCompare},
-                                                   {" <= ", kCompare},
-                                                   {" > ", kCompare},
-                                                   {" >= ", kCompare},
-                                                   {" == ", kCompare},
-                                                   {" != ", kCompare},
-                                                   {" && ", kAnd},
-                                                   {" || ", kOr}}};
-
-const OperatorText& textOf(BinaryOp op) { return kOperators[static_cast<std::size_t>(op)]; }
-
-/// Whether a literal is written with a minus; -0.0 with decimals is not.
-bool isNegative(const Number& number) { return std::signbit(number.value) && simeco::textOf(number).starts_with('-'); }
-
-/// Block comments, and at most one line comment after them.
-bool isComment(std::string_view text) {
-  while (!text.empty()) {
-    if (text.starts_with("//")) return text.find('\n') == std::string_view::npos;
-    const std::size_t end = text.starts_with("/*") ? text.find("*/", 2) : std::string_view::npos;
-    if (end == std::string_view::npos) return false;
-    text.remove_prefix(end + 2);
-    while (text.starts_with(' ')) text.remove_prefix(1);
-  }
-  return true;
-}
 
 bool isTurn(const std::string& letter) { return letter == "rotr" || letter == "rotu"; }
 
-class Printer {
+class Printer : private ExpressionPrinter {
  public:
-  explicit Printer(const Grammar& grammar) : grammar_(grammar) {}
+  using ExpressionPrinter::ExpressionPrinter;
 
   std::string file() {
     out_.reserve(grammar_.expressions.size() * 20 + 256);
@@ -81,74 +38,8 @@ class Printer {
   }
 
  private:
-  // ---- lines and comments ----
-
-  void indent() {
-    for (int i = 0; i < depth_; ++i) out_ += kIndent;
-  }
-  /// A comment as it can stand in a text: one that lacks its // gets it, line by line.
-  void comment(std::string_view text) {
-    if (isComment(text)) {
-      out_ += text;
-      return;
-    }
-    for (std::size_t begin = 0; begin <= text.size();) {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
-      const std::string_view line = text.substr(begin, end - begin);
-      if (begin > 0) {
-        out_ += '\n';
-        indent();
-      }
-      if (!line.starts_with("//")) out_ += line.empty() ? "//" : "// ";
-      out_ += line;
-      begin = end + 1;
-    }
-  }
-  void lines(const std::vector<std::string>& comments) {
-    for (const std::string& line : comments) {
-      if (!line.empty()) {
-        indent();
-        comment(line);
-      }
-      out_ += '\n';
-    }
-  }
-  void endLine(const std::string& rest) {
-    if (!rest.empty()) {
-      out_ += ' ';
-      comment(rest);
-    }
-    out_ += '\n';
-  }
-  void open(const Comments& comments) {
-    out_ += " {";
-    endLine(comments.opening);
-    ++depth_;
-  }
-  void close(const Comments& comments) {
-    lines(comments.inside);
-    --depth_;
-    indent();
-    out_ += '}';
-    endLine(comments.trailing);
-  }
-  // The thesis writes an empty block as {}.
-  void closeEmpty(const Comments& comments) {
-    out_ += " {}";
-    endLine(comments.trailing);
-  }
-  static bool isBare(const Comments& comments) { return comments.opening.empty() && comments.inside.empty(); }
-
   // ---- plants ----
 
-  void quoted(std::string_view words) {
-    out_ += '"';
-    for (const char c : words) {
-      if (c == '"') out_ += '"';
-      out_ += c == '\n' || c == '\r' ? ' ' : c;  // a text is one line; check names such a text
-    }
-    out_ += '"';
-  }
   void attributes(const std::vector<Attribute>& list) {
     for (const Attribute& a : list) {
       lines(a.comments.before);
@@ -438,105 +329,21 @@ class Printer {
     out_ += s.testFirst ? ") " : ");";
     if (s.testFirst) block(s.body);
   }
-
-  // ---- expressions ----
-
-  /// `id` where something that binds at least as `least` is needed; parentheses where it binds less.
-  void expression(ExprId id, Binding least) {
-    const ExprNode& node = grammar_.at(id).node;
-    const bool enclosed = bindingOf(node) < least;
-    if (enclosed) out_ += '(';
-    std::visit([this](const auto& n) { expression(n); }, node);
-    if (enclosed) out_ += ')';
-  }
-  static Binding bindingOf(const ExprNode& node) {
-    if (const auto* number = std::get_if<Number>(&node)) return isNegative(*number) ? kUnary : kPrimary;
-    if (const auto* binary = std::get_if<Binary>(&node)) return textOf(binary->op).binding;
-    if (std::holds_alternative<Chain>(node)) return kCompare;
-    if (std::holds_alternative<Unary>(node)) return kUnary;
-    return std::holds_alternative<Conditional>(node) ? kChoice : kPrimary;
-  }
-  static Binding above(Binding binding) { return static_cast<Binding>(binding + 1); }
-
-  void expression(const Number& n) { out_ += simeco::textOf(n); }
-  void expression(const Name& n) { out_ += n.name; }
-  void expression(const Text& n) { quoted(n.text); }
-  void expression(const Unary& n) {
-    out_ += n.op == UnaryOp::Minus ? '-' : '!';
-    // -(5) is a minus before a literal, -5 is a literal.
-    const bool literal = std::holds_alternative<Number>(grammar_.at(n.operand).node);
-    if (!literal || n.op == UnaryOp::Not) return expression(n.operand, kUnary);
-    out_ += '(';
-    expression(n.operand, kChoice);
-    out_ += ')';
-  }
-  void expression(const Binary& n) {
-    const OperatorText& sign = textOf(n.op);
-    if (n.op == BinaryOp::Power) {  // binds to the right, and a minus may follow it
-      expression(n.left, kPrimary);
-      out_ += sign.text;
-      return expression(n.right, kUnary);
-    }
-    expression(n.left, sign.binding == kCompare ? kSum : sign.binding);
-    out_ += sign.text;
-    const bool arithmetic = sign.binding == kSum || sign.binding == kProduct;
-    const auto* number = std::get_if<Number>(&grammar_.at(n.right).node);
-    const bool negative = arithmetic && number && isNegative(*number);
-    expression(n.right, negative ? kPrimary : above(sign.binding));
-  }
-  void expression(const Chain& n) {
-    for (std::size_t i = 0; i < n.operands.size(); ++i) {
-      if (i > 0) out_ += textOf(n.comparisons[i - 1]).text;
-      expression(n.operands[i], kSum);
-    }
-  }
-  void expression(const Conditional& n) {
-    expression(n.condition, kOr);
-    out_ += " ? ";
-    expression(n.yes, kChoice);
-    out_ += " : ";
-    expression(n.no, kChoice);
-  }
-  void expression(const Call& n) {
-    out_ += n.function;
-    out_ += '(';
-    list(n.arguments);
-    out_ += ')';
-  }
-  void expression(const Element& n) { element(n.array, n.indices); }
-  void element(const std::string& name, const std::vector<ExprId>& indices) {
-    out_ += name;
-    for (const ExprId index : indices) {
-      out_ += '[';
-      expression(index, kChoice);
-      out_ += ']';
-    }
-  }
-  void list(const std::vector<ExprId>& ids) {
-    bool first = true;
-    for (const ExprId id : ids) {
-      if (!std::exchange(first, false)) out_ += ", ";
-      expression(id, kChoice);
-    }
-  }
-
-  const Grammar& grammar_;
-  std::string out_;
-  int depth_ = 0;
 };
 
 }  // namespace
+}  // namespace printing
 
 std::string print(const Grammar& grammar) {
-  return grammar.language == Language::LSystem ? printLSystem(grammar) : Printer(grammar).file();
+  return grammar.language == Language::LSystem ? printLSystem(grammar) : printing::Printer(grammar).file();
 }
 
 std::string printExpression(const Grammar& grammar, ExprId id) {
-  return grammar.language == Language::LSystem ? printLSystemExpression(grammar, id) : Printer(grammar).alone(id);
+  return grammar.language == Language::LSystem ? printLSystemExpression(grammar, id) : printing::Printer(grammar).alone(id);
 }
 
 std::string printModule(const Grammar& grammar, const Module& module) {
-  return grammar.language == Language::LSystem ? printLSystemModule(grammar, module) : Printer(grammar).alone(module);
+  return grammar.language == Language::LSystem ? printLSystemModule(grammar, module) : printing::Printer(grammar).alone(module);
 }
 
 }  // namespace axil::simeco

@@ -2,6 +2,7 @@
 /// \file
 /// Expressions become instructions, terms or constants. Private to program.cpp.
 
+#include "simeco/fold.hpp"
 #include "simeco/lsystem_files.hpp"
 #include "simeco/program_symbols.hpp"
 
@@ -55,63 +56,15 @@ class ExpressionCompiler : protected SymbolCompiler {
   /// The value of an expression that no variable, draw or host can change.
   std::optional<double> constantOf(ExprId id, const Scope& scope) const {
     using Value = std::optional<double>;
-    return std::visit(overloaded{
-                          [](const Number& x) -> Value { return x.value; },
-                          [&](const Name& x) -> Value {
-                            const auto found = environment_.find(x.name);
-                            return found == environment_.end() || isVariable(x.name, scope) ? Value{} : Value{found->second};
-                          },
-                          [](const Text&) -> Value { return {}; },
-                          [&](const Unary& x) -> Value {
-                            const Value v = constantOf(x.operand, scope);
-                            if (!v) return {};
-                            return x.op == UnaryOp::Minus ? -*v : (*v == 0 ? 1.0 : 0.0);
-                          },
-                          [&](const Binary& x) -> Value { return constantBinary(x, scope); },
-                          [&](const Chain& x) -> Value { return constantChain(x, scope); },
-                          [&](const Conditional& x) -> Value {
-                            const Value c = constantOf(x.condition, scope);
-                            if (!c) return {};
-                            return constantOf(*c != 0 ? x.yes : x.no, scope);
-                          },
-                          [&](const Call& x) -> Value { return constantCall(x, scope); },
-                          [](const Element&) -> Value { return {}; },
-                      },
-                      grammar_.at(id).node);
-  }
-  std::optional<double> constantBinary(const Binary& x, const Scope& scope) const {
-    const auto a = constantOf(x.left, scope);
-    if (!a) return {};
-    if (x.op == BinaryOp::And && *a == 0) return 0.0;
-    if (x.op == BinaryOp::Or && *a != 0) return 1.0;
-    const auto b = constantOf(x.right, scope);
-    if (!b) return {};
-    if (x.op == BinaryOp::And || x.op == BinaryOp::Or) return *b != 0 ? 1.0 : 0.0;
-    const Op op = opOf(x.op);
-    if (dividesByZero(op, *b)) return {};
-    return arithmetic(op, *a, *b);
-  }
-  std::optional<double> constantChain(const Chain& x, const Scope& scope) const {
-    std::vector<double> values;
-    for (const ExprId operand : x.operands) {
-      const auto value = constantOf(operand, scope);
-      if (!value) return {};
-      values.push_back(*value);
-    }
-    for (std::size_t i = 0; i < x.comparisons.size(); ++i)
-      if (!compared(opOf(x.comparisons[i]), values[i], values[i + 1])) return 0.0;
-    return 1.0;
-  }
-  std::optional<double> constantCall(const Call& x, const Scope& scope) const {
-    const FunctionRow* row = functionNamed(x.function);
-    if (row == nullptr || static_cast<std::size_t>(row->arguments) != x.arguments.size()) return {};
-    double values[2] = {0, 0};
-    for (std::size_t i = 0; i < x.arguments.size(); ++i) {
-      const auto value = constantOf(x.arguments[i], scope);
-      if (!value) return {};
-      values[i] = *value;
-    }
-    return pureFunction(row->function, values);
+    const auto ofName = [&](const std::string& name) -> Value {
+      const auto found = environment_.find(name);
+      return found == environment_.end() || isVariable(name, scope) ? Value{} : Value{found->second};
+    };
+    const auto ofCall = [&](const Call& call, const std::vector<double>& values) -> Value {
+      const FunctionRow* row = functionNamed(call.function);
+      return row == nullptr || static_cast<std::size_t>(row->arguments) != values.size() ? Value{} : pureFunction(row->function, values.data());
+    };
+    return Folding(grammar_, ofName, ofCall).at(id);
   }
 
   std::int32_t here() const { return static_cast<std::int32_t>(program_.instructions.size()); }

@@ -28,27 +28,6 @@ inline constexpr FunctionRow kClassic[] = {{"sin", 1, Function::SinDegrees},   {
                                     {"biran", 2, Function::Biran},      {"srand", 1, Function::SeedRandom}, {"stop", 1, Function::Stop},
                                     {"SetDerivationLength", 1, Function::SetLength}, {"GetDerivationLength", 1, Function::GetLength}};
 
-inline Op opOf(BinaryOp op) {
-  switch (op) {
-    case BinaryOp::Add: return Op::Add;
-    case BinaryOp::Subtract: return Op::Subtract;
-    case BinaryOp::Multiply: return Op::Multiply;
-    case BinaryOp::Divide: return Op::Divide;
-    case BinaryOp::Remainder: return Op::Remainder;
-    case BinaryOp::Power: return Op::Power;
-    case BinaryOp::Less: return Op::Less;
-    case BinaryOp::LessEqual: return Op::LessEqual;
-    case BinaryOp::Greater: return Op::Greater;
-    case BinaryOp::GreaterEqual: return Op::GreaterEqual;
-    case BinaryOp::Equal: return Op::Equal;
-    case BinaryOp::NotEqual: return Op::NotEqual;
-    case BinaryOp::And:
-    case BinaryOp::Or: break;
-  }
-  AXIL_ASSERT(false, "&& and || are jumps, not operators");
-  return Op::Add;
-}
-
 inline bool isComparison(Op op) { return op >= Op::Less && op <= Op::NotEqual; }
 
 /// -0 and 0 are one number where rules are looked up by it.

@@ -54,6 +54,15 @@ constexpr Workload kWorkloads[] = {
      "Lsystem: 1\nderivation length: 18\nAxiom: A(0)\nA(t) --> A(t+1)\nI(t) --> I(t+1)\ndecomposition\nmaximum depth: 3\n"
      "A(t) : t>=2 --> S(1)[+(40)A(t-2)]S(0)[-(30)A(t-1)]A(t-2)\nS(n) : n>0 --> S(n-1)I(0)\nS(n) : n==0 --> I(0)\nendlsystem\n",
      0},
+    // Its homomorphism draws leaves; the string is derived without them, longer than the file asks so that there is something to measure.
+    {"geometry_tree",
+     "#define r1 0.9\n#define r2 0.6\n#define a0 45\n#define a2 45\n#define d 137.5\n#define wr 0.707\nLsystem: 1\nderivation length: 17\n"
+     "Axiom: A(1,0.2)\n"
+     "A(l,w) : 1 --> !(w)F(l)[&(a0)B(l*r2,w*wr)]/(d)A(l*r1,w*wr)\n"
+     "B(l,w) : 1 --> !(w)F(l)L[-(a2)@vC(l*r2,w*wr)]C(l*r1,w*wr)\n"
+     "C(l,w) : 1 --> !(w)F(l)L[+(a2)@vB(l*r2,w*wr)]B(l*r1,w*wr)\n"
+     "homomorphism\nL --> [&(60){.+(20)f(0.1)-(20)f(0.1)-(20)f(0.1)+(20)+(160)f(0.1)-(20)f(0.1)}]\nendlsystem\n",
+     0},
 };
 
 double secondsOf(const auto& work) {

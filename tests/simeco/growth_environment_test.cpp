@@ -280,11 +280,17 @@ TEST(ObstacleField, FindsTheNearestPointThatABruteForceSearchFinds) {
 
 // ---- time ------------------------------------------------------------------------------------------------------------
 
+/// One of each kind where the bush grows: a ball, a shelf, a slanting pane.
+std::vector<Obstacle> obstaclesOfAllKinds() {
+  const MeshObstacle pane{.points = {{{-2, 2.5, -2}}, {{2, 3.5, -2}}, {{0, 3, 2}}}, .triangles = {{0, 1, 2}}};
+  return {SphereObstacle{{{0.5, 2, 0.5}}, 0.4}, BoxObstacle{{{-1.5, 1.4, -0.8}}, {{-0.3, 1.5, 0.8}}}, pane};
+}
 GrowOptions weather() {
   GrowOptions options;
   options.seed = 3;
-  options.environment = {.wind = glm::dvec3{0.5, 0, 0}, .obstacles = {SphereObstacle{{{0.5, 2, 0.5}}, 0.4}}};
-  options.changes = {{2.3, {.soilPH = 6.0, .wind = glm::dvec3{-0.5, 0, 0.2}}}, {5.1, {.rainRate = 0.4, .light = glm::dvec3{1, 1, 0}}}};
+  options.environment = {.wind = glm::dvec3{0.5, 0, 0}, .obstacles = obstaclesOfAllKinds()};
+  options.changes = {{2.3, {.soilPH = 6.0, .gravity = glm::dvec3{0.3, -1, 0}, .wind = glm::dvec3{-0.5, 0, 0.2}, .obstacles = obstaclesOfAllKinds()}},
+                     {5.1, {.rainRate = 0.4, .light = glm::dvec3{1, 1, 0}}}};
   return options;
 }
 PlantText answering() { return bush("GravityTropism = -0.2; LightTropism = 0.3; LightResponse = 0.8;"); }
@@ -348,6 +354,34 @@ TEST(GrowthEnvironment, AHostAnswersWhatThePlantHasBecome) {
   const Growth planned = grown(grammar, told);
   for (double time = 0; time < 12; time += 0.37) EXPECT_EQ(at(tended, time), at(planned, time)) << time;
   EXPECT_NEAR(heightOf(at(tended, 20)), 2 + 6 * std::exp(-2), 1e-12);
+}
+
+TEST(GrowthEnvironment, WhatAHostAnswersLaterChangesNothingEarlierAndAnyTimeMayBeAskedFor) {
+  // Every step another wind and one obstacle more; two gardeners who agree up to time 4.
+  const auto gardener = [](double until) {
+    GrowOptions options = weather();
+    options.changes.clear();
+    options.betweenSteps = [until](const Plant& plant, const Environment& now) -> Result<Environment> {
+      if (plant.time > until) return Environment{.temperature = 5};
+      Environment next = now;
+      next.wind = glm::dvec3{0.4 - 0.2 * plant.time, 0, 0.1 * plant.time};
+      next.obstacles.push_back(SphereObstacle{{{1.5 - plant.time, 1.5 + 0.5 * plant.time, 0}}, 0.2});
+      return next;
+    };
+    return options;
+  };
+  const Grammar grammar = grammarOf(answering());
+  const Growth a = grown(grammar, gardener(4)), b = grown(grammar, gardener(100));
+  GrowOptions fewSteps = gardener(100);
+  fewSteps.steps = 4;
+  const Growth c = grown(grammar, fewSteps);
+  for (int i = 0; i < 20; ++i) {
+    const double time = 0.25 * ((i * 7) % 20);
+    EXPECT_EQ(at(a, time), at(b, time)) << time;
+    EXPECT_EQ(at(c, time), at(b, time)) << time;
+  }
+  EXPECT_NE(at(a, 7), at(b, 7));
+  EXPECT_EQ(at(b, 7), at(grown(grammar, gardener(100)), 7));
 }
 
 TEST(GrowthEnvironment, AHostsLightActsFromTheStepAtWhichItAnswers) {
