@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -25,6 +26,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr Quantity kShown[] = {Quantity::Length, Quantity::Radius, Quantity::Bend, Quantity::Insertion, Quantity::Branching, Quantity::LeafLength, Quantity::LeafAngle, Quantity::Ending};
 constexpr std::size_t kMostOrders = 8;
+constexpr double kNoAngle = 1e-3;   // degrees; less is rounding, and would stretch an axis over nothing
 
 Plot plotOf(const quantify::LayeredStatistics& s, const QuantityName& name) {
   const double factor = name.kind == QuantityName::Kind::Angle ? 180 / std::numbers::pi : 1;
@@ -36,14 +38,15 @@ Plot plotOf(const quantify::LayeredStatistics& s, const QuantityName& name) {
   plot.counted = true;
   // Nothing shown is below 0, and no share above 1, whatever two standard errors say.
   const double most = name.kind == QuantityName::Kind::Share ? 1 : std::numeric_limits<double>::infinity();
+  const auto shown = [&](double value) { return name.kind == QuantityName::Kind::Angle && std::abs(value * factor) < kNoAngle ? 0 : value * factor; };
   for (const auto& layer : s.of(name.quantity).orders) {
     if (plot.series.size() == kMostOrders) break;
     PlotSeries series;
     series.name = "order " + std::to_string(layer.order);
     series.line = true;
     for (const auto& rank : layer.ranks) {
-      const double y = rank.estimate.value * factor;
-      const double bar = 2 * rank.estimate.error * factor;
+      const double y = shown(rank.estimate.value);
+      const double bar = 2 * shown(rank.estimate.error);
       series.points.push_back({static_cast<double>(rank.rank), y, std::min(y, std::max(0.0, y - bar)), std::min(most, y + bar)});
     }
     plot.series.push_back(std::move(series));

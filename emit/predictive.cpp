@@ -113,6 +113,14 @@ class Predictor {
   ExprId scaled(ExprId length, double factor) { return std::abs(factor - 1) < 5e-5 ? length : times(length, ratio(factor)); }
   /// How a step that changes from rank to rank has changed at `rank`.
   ExprId bentBy(double curve, ExprId rank) { return builder_.call("exp", {times(builder_.number(curve, 6), rank)}); }
+  /// The place on its order's course, by rank or by the plant's stages, of the segment that is being made; `below` it.
+  ExprId courseAt(const OrderOutlook& o, ExprId rank, int below) {
+    if (o.length.along == quantify::LengthsAlong::Stage) {
+      const double now = outlook_.statistics.schedule.plants[outlook_.plant].now;
+      return minus(builder_.number(now + predictive_.stages + 1 - below, 4), name("left"));
+    }
+    return below == 0 ? rank : minus(rank, builder_.whole(below));
+  }
   /// `length` with the order's chance around it.
   ExprId varied(ExprId length, double miss) {
     if (miss < 5e-5) return length;
@@ -292,7 +300,9 @@ class Predictor {
     to.push_back(Builder::module("S", {builder_.whole(stemOf(o.order)), varied(length, o.startMiss)}));
     const ExprId around = o.startsAlike ? angle(o.firstAzimuth) : angle(0);
     if (o.leafAtOwnTip && leafShare > 0.5) addLeaves(to, o, around);
-    const ApexStart next{builder_.whole(1), scaled(length, o.length.step), around, builder_.whole(0), left};
+    ExprId second = scaled(length, o.length.step);
+    if (o.length.curve != 1 && o.length.along == quantify::LengthsAlong::Stage) second = times(second, bentBy(std::log(o.length.curve), courseAt(o, second, 0)));
+    const ApexStart next{builder_.whole(1), second, around, builder_.whole(0), left};
     to.push_back(apex(apexOf(o.order), next, bends(o)));
   }
 
@@ -300,7 +310,7 @@ class Predictor {
   ExprId branchLength(const OrderOutlook& bearer, const OrderOutlook& o, double armRatio) {
     if (o.start == quantify::StartRule::Usual) return size(o.usualLength);
     const ExprId length = scaled(name("length"), armRatio / bearer.length.step);
-    return bearer.length.curve == 1 ? length : times(length, bentBy(-std::log(bearer.length.curve), minus(name("rank"), builder_.whole(1))));
+    return bearer.length.curve == 1 ? length : times(length, bentBy(-std::log(bearer.length.curve), courseAt(bearer, name("rank"), 1)));
   }
 
   /// What branches off at an apex' node.
@@ -340,7 +350,7 @@ class Predictor {
     if (bent) around = minus(around, name("side"));
     if (leaves && o.leafAtOwnTip) addLeaves(to, o, around);
     ExprId length = scaled(name("length"), o.length.step);
-    if (o.length.curve != 1) length = times(length, bentBy(std::log(o.length.curve), name("rank")));
+    if (o.length.curve != 1) length = times(length, bentBy(std::log(o.length.curve), courseAt(o, name("rank"), 0)));
     if (o.length.step > 1 + 5e-5 || o.length.curve > 1) length = builder_.call("min", {length, size(kLongest * longest_)});
     to.push_back(apex(apexOf(o.order), {plus(name("rank"), builder_.whole(1)), length, around, builder_.whole(0), minus(name("left"), builder_.whole(1))}, bent));
     return to;
@@ -498,7 +508,7 @@ class Predictor {
       fates += (fates.empty() ? "" : ", ") + (fate.goesOn ? "goes on" + branches : fate.branches > 0 ? "forks into " + std::to_string(fate.branches) : std::string("ends")) + " " + fixed(100 * fate.share, 0) + " %";
     }
     std::vector<std::string> lines{"// Order " + std::to_string(o.order) + ", from " + countOf(o.segments, "segment", "segments") + ": an apex " + fates + shapeWords(o.fates) + "."};
-    std::string growth = "// Its next length is foretold from " + std::string(quantify::nameOf(o.length.rule)) + ", x " + fixed(o.length.step, 4) + " a rank" + (o.length.curve == 1 ? "" : ", itself x " + fixed(o.length.curve, 4) + " a rank") + "; 90 % within a factor of " +
+    std::string growth = "// Its next length is foretold from " + std::string(quantify::nameOf(o.length.rule)) + ", x " + fixed(o.length.step, 4) + (o.length.along == quantify::LengthsAlong::Stage ? " a stage of the plant" : " a rank") + (o.length.curve == 1 ? "" : ", itself x " + fixed(o.length.curve, 4) + " a rank") + "; 90 % within a factor of " +
                          fixed(std::exp(kNinety * o.length.miss), 3) + " (" + countOf(o.length.samples, "sample", "samples") + ").";
     if (!o.schedule.steady) growth += " It makes " + fixed(o.schedule.rate, 2) + " segments a stage" + (o.schedule.lasting ? " for " + fixed(*o.schedule.lasting, 0) + " stages." : ".");
     if (o.most) growth += " Axes end after " + countOf(static_cast<std::size_t>(*o.most), "segment", "segments") + ".";

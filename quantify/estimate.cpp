@@ -12,8 +12,18 @@ namespace {
 constexpr double kTuning = 1.345;       // Huber: 95 % efficient on normal samples
 constexpr double kNormalMad = 1.4826;
 constexpr int kSteps = 50;
+constexpr int kRounds = 10;             // of a trend
 constexpr double kMostExtrapolation = 10;
 constexpr double kNormalTail = 2.3;     // deviations beyond which plants are said to differ, 1 %
+
+/// Reorders `values`.
+double quantileAmong(std::vector<double>& values, double share) {
+  const double at = share * static_cast<double>(values.size() - 1);
+  const auto below = values.begin() + static_cast<std::ptrdiff_t>(at);
+  std::nth_element(values.begin(), below, values.end());
+  if (below + 1 == values.end()) return *below;
+  return *below + (at - std::floor(at)) * (*std::min_element(below + 1, values.end()) - *below);
+}
 
 double meanOf(std::span<const double> values) {
   double sum = 0;
@@ -79,24 +89,68 @@ Combined combinedShares(std::span<const double> own, std::span<const double> cou
   return result;
 }
 
+/// The samples of one axis: ranks, and what was measured there (its logarithm).
+struct AxisPoints {
+  std::vector<double> ranks, values;
+};
+std::vector<AxisPoints> axisPoints(std::span<const Sample> samples, std::span<const std::size_t> axisOf, bool logarithmic) {
+  std::map<std::size_t, std::size_t> places;
+  std::vector<AxisPoints> axes;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (logarithmic && !(samples[i].value > 0)) continue;
+    const auto place = places.try_emplace(axisOf[i], axes.size());
+    if (place.second) axes.emplace_back();
+    AxisPoints& axis = axes[place.first->second];
+    axis.ranks.push_back(samples[i].rank);
+    axis.values.push_back(logarithmic ? std::log(samples[i].value) : samples[i].value);
+  }
+  return axes;
+}
+
+/// The slope of least squares within axes, in which what lies further than `reach` from the median level of its axis (along the slope before) counts less.
+struct Slope {
+  double value = 0;
+  double squares = 0;                                ///< of ranks around their axis' mean
+  std::vector<std::pair<double, double>> centres;    ///< of each axis
+};
+Slope slopeOf(const std::vector<AxisPoints>& axes, double before, double reach) {
+  Slope slope;
+  double products = 0;
+  std::vector<double> levels, weights;
+  for (const AxisPoints& axis : axes) {
+    const std::size_t n = axis.ranks.size();
+    weights.assign(n, 1);
+    if (n > 1 && std::isfinite(reach)) {
+      levels.resize(n);
+      for (std::size_t i = 0; i < n; ++i) weights[i] = levels[i] = axis.values[i] - before * axis.ranks[i];
+      const double level = quantileAmong(levels, 0.5);
+      for (double& w : weights) w = std::min(1.0, reach / std::max(std::abs(w - level), 1e-300));
+    }
+    double w = 0, x = 0, y = 0;
+    for (std::size_t i = 0; i < n; ++i) w += weights[i], x += weights[i] * axis.ranks[i], y += weights[i] * axis.values[i];
+    x /= w, y /= w;
+    slope.centres.emplace_back(x, y);
+    for (std::size_t i = 0; i < n; ++i) {
+      slope.squares += weights[i] * (axis.ranks[i] - x) * (axis.ranks[i] - x);
+      products += weights[i] * (axis.ranks[i] - x) * (axis.values[i] - y);
+    }
+  }
+  slope.value = slope.squares > 0 ? products / slope.squares : 0;
+  return slope;
+}
+
 }  // namespace
 
-double quantileOf(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  const double at = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  if (below + 1 >= values.size()) return values.back();
-  return values[below] + (at - static_cast<double>(below)) * (values[below + 1] - values[below]);
-}
+double quantileOf(std::vector<double> values, double share) { return quantileAmong(values, share); }
 
 double medianOf(std::vector<double> values) { return quantileOf(std::move(values), 0.5); }
 
 Centre centreOf(std::span<const double> values) {
   if (values.empty()) return {};
   std::vector<double> copy(values.begin(), values.end());
-  const double median = medianOf(copy);
+  const double median = quantileAmong(copy, 0.5);
   for (double& v : copy) v = std::abs(v - median);
-  const double scale = kNormalMad * medianOf(copy);
+  const double scale = kNormalMad * quantileAmong(copy, 0.5);
   const double mean = meanOf(values);
   // More than half of the samples alike (or too few to tell): the scale of all of them.
   if (values.size() < 3 || scale <= 0) {
@@ -257,61 +311,38 @@ double Trend::step() const { return logarithmic ? std::exp(slope) : slope; }
 Trend trendOf(std::span<const Sample> samples, std::span<const std::size_t> axisOf, bool logarithmic) {
   Trend trend;
   trend.logarithmic = logarithmic;
-  std::map<std::size_t, std::vector<std::pair<double, double>>> axes;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (logarithmic && !(samples[i].value > 0)) continue;
-    axes[axisOf[i]].emplace_back(samples[i].rank, logarithmic ? std::log(samples[i].value) : samples[i].value);
-    trend.lastRank = std::max(trend.lastRank, samples[i].rank);
-    ++trend.samples;
+  const std::vector<AxisPoints> axes = axisPoints(samples, axisOf, logarithmic);
+  for (const AxisPoints& axis : axes) {
+    trend.samples += axis.ranks.size();
+    trend.lastRank = std::max(trend.lastRank, static_cast<int>(*std::max_element(axis.ranks.begin(), axis.ranks.end())));
   }
   if (trend.samples == 0) return trend;
   // Within axes: what axes start from does not enter the slope. Huber's weights, a few rounds.
-  double residual = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < 10; ++round) {
-    double sxx = 0;
-    double sxy = 0;
-    std::vector<double> offs;
-    std::map<std::size_t, std::pair<double, double>> centres;
-    for (const auto& [axis, points] : axes) {
-      double w = 0, x = 0, y = 0;
-      std::vector<double> levels;
-      for (const auto& [rank, value] : points) levels.push_back(value - trend.slope * rank);
-      const double level = medianOf(levels);
-      for (const auto& [rank, value] : points) {
-        const double off = std::abs(value - trend.slope * rank - level);
-        const double weight = off <= 2 * residual ? 1 : 2 * residual / off;
-        w += weight; x += weight * rank; y += weight * value;
-      }
-      x /= w; y /= w;
-      centres[axis] = {x, y};
-      for (const auto& [rank, value] : points) {
-        const double off = std::abs(value - trend.slope * rank - level);
-        const double weight = off <= 2 * residual ? 1 : 2 * residual / off;
-        sxx += weight * (rank - x) * (rank - x);
-        sxy += weight * (rank - x) * (value - y);
-      }
-    }
-    trend.slope = sxx > 0 ? sxy / sxx : 0;
+  double reach = std::numeric_limits<double>::infinity();
+  std::vector<double> starts(axes.size());
+  for (int round = 0; round < kRounds; ++round) {
+    const Slope slope = slopeOf(axes, trend.slope, reach);
+    const bool still = round > 0 && std::abs(slope.value - trend.slope) <= 1e-12 * std::abs(slope.value);
+    trend.slope = slope.value;
     double squares = 0;
-    std::vector<double> starts;
-    for (const auto& [axis, points] : axes) {
-      const auto [x, y] = centres.at(axis);
-      starts.push_back(y - trend.slope * x);
-      for (const auto& [rank, value] : points) {
-        const double off = value - y - trend.slope * (rank - x);
-        squares += off * off;
-        offs.push_back(std::abs(off));
+    std::vector<double> offs;
+    offs.reserve(trend.samples);
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      starts[a] = slope.centres[a].second - trend.slope * slope.centres[a].first;
+      for (std::size_t i = 0; i < axes[a].ranks.size(); ++i) {
+        offs.push_back(std::abs(axes[a].values[i] - starts[a] - trend.slope * axes[a].ranks[i]));
+        squares += offs.back() * offs.back();
       }
     }
     const double freedom = static_cast<double>(trend.samples) - static_cast<double>(axes.size()) - 1;
-    const double deviation = freedom > 0 ? std::sqrt(squares / freedom) : 0;
-    residual = std::max(1.4826 * medianOf(offs), 1e-12);
-    trend.residual = deviation;
-    trend.slopeError = sxx > 0 ? deviation / std::sqrt(sxx) : 0;
-    const Centre centre = centreOf(starts);
-    trend.start = centre.value;
-    trend.axisDeviation = centre.deviation;
+    trend.residual = freedom > 0 ? std::sqrt(squares / freedom) : 0;
+    trend.slopeError = slope.squares > 0 ? trend.residual / std::sqrt(slope.squares) : 0;
+    reach = 2 * std::max(kNormalMad * quantileAmong(offs, 0.5), 1e-12);
+    if (still) break;
   }
+  const Centre centre = centreOf(starts);
+  trend.start = centre.value;
+  trend.axisDeviation = centre.deviation;
   return trend;
 }
 

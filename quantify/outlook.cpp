@@ -167,8 +167,9 @@ class Maker {
     const MeasuredPlant& plant = plants_[out_.plant];
     out_.levels.resize(plant.measurements->segments.size());
     for (const Axis& axis : plant.structure->axes) {
-      const std::vector<double> logs = logLengths(*plant.measurements, axis);
-      for (std::size_t r = 0; r < logs.size(); ++r) out_.levels[placeOf(axis.segments[r])] = std::exp(courses_.at(axis.order).levelAt(logs, static_cast<double>(r)));
+      const AxisLengths lengths = lengthsOf(plant, stats().schedule.plants[out_.plant], axis);
+      const std::size_t count = lengths.logs.size();
+      for (std::size_t r = 0; r < count; ++r) out_.levels[placeOf(axis.segments[r])] = std::exp(courses_.at(axis.order).levelAt(lengths, count, r));
     }
   }
 
@@ -191,12 +192,13 @@ class Maker {
     tip.tip = axis.tip();
     tip.order = axis.order;
     tip.nextRank = static_cast<int>(axis.segments.size());
-    const std::vector<double> logs = logLengths(*plant.measurements, axis);
+    const AxisLengths lengths = lengthsOf(plant, stats().schedule.plants[out_.plant], axis);
+    const std::size_t below = lengths.logs.size();
     OrderCourse course = courses_.at(axis.order);
     course.step = std::log(o.length.step);
     course.curve = std::log(o.length.curve);
-    tip.length = std::exp(foretold(o.length.rule, logs, course));
-    tip.miss = o.length.samples >= 2 ? doubtOf(o.length, logs.size(), course) : std::max(o.length.miss, o.startMiss);
+    tip.length = std::exp(foretold(o.length.rule, lengths, below, course));
+    tip.miss = o.length.samples >= 2 ? doubtOf(o.length, below, course) : std::max(o.length.miss, o.startMiss);
     const double reach = kNinety * tip.miss * fewFactor(o.length.samples);
     tip.low = tip.length * std::exp(-reach);
     tip.high = tip.length * std::exp(reach);

@@ -6,7 +6,8 @@
 /// ends) and at which ranks (fates), how leaves and branches stand, how large leaves get, how many stages they take and after how many they are gone.
 /// The length of a next segment is foretold by the rule that foretold the measured ones best, each from the segments below it: the order's
 /// trend along the rank, the axis' own level on that trend, or the segment below times the usual ratio; its misses make the interval.
-/// A trend may bend (lengths that swell and then dwindle along an axis) where that is more than chance. Rules that are no better than chance are not told apart: fewer than three misses take
+/// A trend may bend (lengths that swell and then dwindle along an axis, or with the age of the plant) where that is more than chance; where the youngest segments
+/// have clearly left it, the segment below is taken on by the ratio that is usual among them. Rules that are no better than chance are not told apart: fewer than three misses take
 /// the segment below. Source of the idea: L-Grammar Generator
 /// 2005, section 3.4.2 and chapter 4; choice by hindsight as in Hyndman and Athanasopoulos, Forecasting (2021), section 5.10.
 
@@ -23,10 +24,14 @@ namespace axil::quantify {
 enum class LengthRule { Trend, Axis, Last };
 [[nodiscard]] const char* nameOf(LengthRule rule);
 
+/// What lengths follow: the place on their axis, or the age of the whole plant when they were made, whatever axis they are on.
+enum class LengthsAlong { Rank, Stage };
+
 /// How lengths of an order's next segments are foretold. Misses are of logarithms.
 struct LengthOutlook {
   LengthRule rule = LengthRule::Trend;
-  double step = 1;          ///< factor from rank 0 to the next
+  LengthsAlong along = LengthsAlong::Rank;
+  double step = 1;          ///< factor from rank (stage) 0 to the next
   double curve = 1;         ///< by which that factor changes from rank to rank, where lengths are seen to swell or to dwindle so
   double miss = 0;          ///< standard deviation of log(true / foretold)
   std::size_t samples = 0;  ///< segments it was judged by

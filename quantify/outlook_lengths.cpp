@@ -16,14 +16,15 @@ constexpr double kClearCurve = 3;        // standard errors that a curve must ha
 constexpr std::size_t kCurveSamples = 20;
 constexpr double kSlightlyBetter = 0.98;
 constexpr double kClearlyBetter = 0.95;
+constexpr double kFading = 0.5;          // of a miss' weight, by rank from the tip
 
-using AxesLogs = std::vector<std::vector<double>>;
+using Axes = std::vector<AxisLengths>;
 
-AxesLogs axesOf(std::span<const MeasuredPlant> plants, int order) {
-  AxesLogs axes;
-  for (const MeasuredPlant& plant : plants)
-    for (const Axis& axis : plant.structure->axes)
-      if (axis.order == order) axes.push_back(logLengths(*plant.measurements, axis));
+Axes axesOf(std::span<const MeasuredPlant> plants, const Schedule& schedule, int order) {
+  Axes axes;
+  for (std::size_t p = 0; p < plants.size(); ++p)
+    for (const Axis& axis : plants[p].structure->axes)
+      if (axis.order == order) axes.push_back(lengthsOf(plants[p], schedule.plants[p], axis));
   return axes;
 }
 
@@ -59,24 +60,26 @@ struct Products {
 };
 
 /// A step that itself changes evenly from rank to rank: least squares within axes, in which misses beyond 2 deviations count less. None where it is no more than chance.
-std::optional<OrderCourse> curvedCourse(const AxesLogs& axes) {
+std::optional<OrderCourse> curvedCourse(const Axes& axes, LengthsAlong along) {
   std::size_t samples = 0, freedom = 0;
-  for (const auto& logs : axes) {
-    samples += logs.size();
-    freedom += logs.size() - 1;
+  for (const AxisLengths& axis : axes) {
+    samples += axis.logs.size();
+    freedom += axis.logs.size() - 1;
   }
   if (samples < kCurveSamples || freedom < kCurveSamples / 2) return std::nullopt;
   OrderCourse course;
+  course.along = along;
   double reach = std::numeric_limits<double>::infinity(), curveError = 0;
   for (int round = 0; round < 5; ++round) {
     Products sum;
     std::vector<double> offs;
-    for (const auto& logs : axes) {
-      const double own = course.levelOf(logs);
+    for (const AxisLengths& axis : axes) {
+      const std::vector<double>& logs = axis.logs;
+      const double own = course.levelOf(axis, logs.size());
       double w = 0, r = 0, q = 0, y = 0;
-      const auto weightOf = [&](std::size_t i) { return std::min(1.0, reach / std::max(1e-12, std::abs(logs[i] - course.at(static_cast<double>(i)) - own))); };
+      const auto weightOf = [&](std::size_t i) { return std::min(1.0, reach / std::max(1e-12, std::abs(logs[i] - course.at(course.placeOf(axis, i)) - own))); };
       const auto each = [&](const std::function<void(double, double, double, double)>& visit) {
-        for (std::size_t i = 0; i < logs.size(); ++i) visit(weightOf(i), static_cast<double>(i), pairsBelow(static_cast<double>(i)), logs[i]);
+        for (std::size_t i = 0; i < logs.size(); ++i) visit(weightOf(i), course.placeOf(axis, i), pairsBelow(course.placeOf(axis, i)), logs[i]);
       };
       each([&](double weight, double ri, double qi, double yi) { w += weight, r += weight * ri, q += weight * qi, y += weight * yi; });
       r /= w, q /= w, y /= w;
@@ -92,10 +95,10 @@ std::optional<OrderCourse> curvedCourse(const AxesLogs& axes) {
     course.curve = (sum.qy * sum.rr - sum.ry * sum.rq) / determinant;
     double squares = 0;
     std::vector<double> levels;
-    for (const auto& logs : axes) {
-      levels.push_back(course.levelOf(logs));
-      for (std::size_t i = 0; i < logs.size(); ++i) {
-        offs.push_back(std::abs(logs[i] - course.at(static_cast<double>(i)) - levels.back()));
+    for (const AxisLengths& axis : axes) {
+      levels.push_back(course.levelOf(axis, axis.logs.size()));
+      for (std::size_t i = 0; i < axis.logs.size(); ++i) {
+        offs.push_back(std::abs(axis.logs[i] - course.at(course.placeOf(axis, i)) - levels.back()));
         squares += offs.back() * offs.back();
       }
     }
@@ -111,48 +114,72 @@ std::optional<OrderCourse> curvedCourse(const AxesLogs& axes) {
   return std::abs(course.curve) > kClearCurve * curveError ? std::optional(course) : std::nullopt;
 }
 
-/// How well a rule foretells the measured lengths: the deviation of its misses as they are, and as they would be for an axis whose level is known.
+/// What counts less the further below its axis' tip it is.
+double recency(const AxisLengths& axis, std::size_t rank) { return std::pow(kFading, static_cast<double>(axis.logs.size() - 1 - rank)); }
+
+/// How well a rule foretells the measured lengths: the deviation of its misses as they are, and as they would be for an axis whose level is known; and
+/// that of the youngest.
 struct Judgement {
   double miss = 0;
   double alike = 0;
   std::size_t samples = 0;
+  double recent = 0;
+  double recentSamples = 0;
 };
-Judgement judged(LengthRule rule, const OrderCourse& course, const AxesLogs& axes) {
+Judgement judged(LengthRule rule, const OrderCourse& course, const Axes& axes) {
   std::vector<double> misses, alike;
-  for (const auto& logs : axes)
-    for (std::size_t r = 1; r < logs.size(); ++r) {
-      misses.push_back(logs[r] - foretold(rule, std::span(logs).first(r), course));
+  double weights = 0, squares = 0;
+  for (const AxisLengths& axis : axes)
+    for (std::size_t r = 1; r < axis.logs.size(); ++r) {
+      misses.push_back(axis.logs[r] - foretold(rule, axis, r, course));
       alike.push_back(misses.back() / levelDoubt(rule, r, course));
+      weights += recency(axis, r);
+      squares += recency(axis, r) * alike.back() * alike.back();
     }
-  return {deviationOf(misses), deviationOf(alike), misses.size()};
+  return {deviationOf(misses), deviationOf(alike), misses.size(), weights > 0 ? std::sqrt(squares / weights) : 0, weights};
+}
+
+/// By how much a variance told by so many samples is off by chance, twice over.
+double byChance(double samples) { return 2 * std::sqrt(2 / samples); }
+
+/// What is usual from segment to segment among the youngest.
+double recentStep(const Axes& axes) {
+  double sum = 0, weights = 0;
+  for (const AxisLengths& axis : axes)
+    for (std::size_t r = 1; r < axis.logs.size(); ++r) {
+      sum += recency(axis, r) * (axis.logs[r] - axis.logs[r - 1]);
+      weights += recency(axis, r);
+    }
+  return weights > 0 ? sum / weights : 0;
 }
 
 }  // namespace
 
-std::vector<double> logLengths(const Measurements& m, const Axis& axis) {
-  std::vector<double> logs;
-  for (const SegmentId s : axis.segments) logs.push_back(std::log(m.at(s).length));
-  return logs;
+AxisLengths lengthsOf(const MeasuredPlant& plant, const PlantSchedule& schedule, const Axis& axis) {
+  AxisLengths lengths;
+  for (const SegmentId s : axis.segments) lengths.logs.push_back(std::log(plant.measurements->at(s).length));
+  lengths.begun = schedule.birth[static_cast<std::size_t>(axis.base().value)];
+  return lengths;
 }
 
-double OrderCourse::at(double rank) const { return start + step * rank + curve * pairsBelow(rank); }
+double OrderCourse::at(double place) const { return start + step * place + curve * pairsBelow(place); }
 
-double OrderCourse::levelOf(std::span<const double> logs) const {
+double OrderCourse::levelOf(const AxisLengths& axis, std::size_t count) const {
   double off = 0;
-  for (std::size_t i = 0; i < logs.size(); ++i) off += logs[i] - at(static_cast<double>(i));
-  return logs.empty() ? 0 : off / static_cast<double>(logs.size());
+  for (std::size_t i = 0; i < count; ++i) off += axis.logs[i] - at(placeOf(axis, i));
+  return count == 0 ? 0 : off / static_cast<double>(count);
 }
 
-double OrderCourse::levelAt(std::span<const double> logs, double rank) const {
-  const double count = static_cast<double>(logs.size());
-  return at(rank) + levelOf(logs) * count / (count + weight);
+double OrderCourse::levelAt(const AxisLengths& axis, std::size_t count, std::size_t rank) const {
+  const double known = static_cast<double>(count);
+  return at(placeOf(axis, rank)) + levelOf(axis, count) * known / (known + weight);
 }
 
-double foretold(LengthRule rule, std::span<const double> below, const OrderCourse& course) {
-  const double rank = static_cast<double>(below.size());
-  if (rule == LengthRule::Last && !below.empty()) return below.back() + course.at(rank) - course.at(rank - 1);
-  if (rule == LengthRule::Axis && !below.empty()) return course.levelAt(below, rank);
-  return course.at(rank);
+double foretold(LengthRule rule, const AxisLengths& axis, std::size_t below, const OrderCourse& course) {
+  const double place = course.placeOf(axis, below);
+  if (rule == LengthRule::Last && below > 0) return axis.logs[below - 1] + course.at(place) - course.at(place - 1);
+  if (rule == LengthRule::Axis && below > 0) return course.levelAt(axis, below, below);
+  return course.at(place);
 }
 
 double doubtOf(const LengthOutlook& length, std::size_t below, const OrderCourse& course) {
@@ -170,18 +197,21 @@ double doubtOf(const LengthOutlook& length, std::size_t below, const OrderCourse
 OrderCourse setLength(OrderOutlook& o, std::span<const MeasuredPlant> plants, const LayeredStatistics& statistics) {
   const OrderLayer& layer = *statistics.of(Quantity::Length).order(o.order);
   const QuantityLayers& ratios = statistics.of(Quantity::LengthRatio);
-  const AxesLogs axes = axesOf(plants, o.order);
+  const Axes axes = axesOf(plants, statistics.schedule, o.order);
   o.segments = layer.estimate.samples;
   OrderCourse best = straightCourse(layer, o.schedule.axes);
-  double least = std::numeric_limits<double>::infinity();
+  Judgement least{.miss = std::numeric_limits<double>::infinity()};
+  const auto take = [&](LengthRule rule, const OrderCourse& course, const Judgement& judgement) {
+    least = judgement;
+    best = course;
+    o.length = {rule, course.along, std::exp(course.step), std::exp(course.curve), judgement.alike, judgement.samples};
+  };
   const auto consider = [&](LengthRule rule, const OrderCourse& course, double better) {
     const Judgement judgement = judged(rule, course, axes);
     // A later rule must be better by more than rounding; where too few misses judge, the segment below it is.
-    if (judgement.samples >= kJudges && judgement.miss >= better * least) return;
+    if (judgement.samples >= kJudges && judgement.miss >= better * least.miss) return;
     if (judgement.samples < kJudges && rule != LengthRule::Last) return;
-    least = judgement.miss;
-    best = course;
-    o.length = {rule, std::exp(course.step), std::exp(course.curve), judgement.alike, judgement.samples};
+    take(rule, course, judgement);
   };
   const OrderCourse straight = best;
   consider(LengthRule::Trend, straight, kSlightlyBetter);
@@ -189,11 +219,22 @@ OrderCourse setLength(OrderOutlook& o, std::span<const MeasuredPlant> plants, co
   OrderCourse last = straight;
   last.step = ratios.all.samples > 0 ? std::log(ratios.nearest(o.order).value) : 0;
   consider(LengthRule::Last, last, kSlightlyBetter);
-  if (const auto curved = curvedCourse(axes)) {
+  // An order that stops after its stages loses count of them.
+  for (const LengthsAlong along : {LengthsAlong::Rank, LengthsAlong::Stage}) {
+    const auto curved = along == LengthsAlong::Stage && o.schedule.lasting ? std::nullopt : curvedCourse(axes, along);
+    if (!curved) continue;
     consider(LengthRule::Trend, *curved, kClearlyBetter);
     consider(LengthRule::Axis, *curved, kSlightlyBetter);
     consider(LengthRule::Last, *curved, kSlightlyBetter);
   }
+  // Where the youngest have left what all follow, they go on as they do among themselves, or stay as they are.
+  for (const double step : {recentStep(axes), 0.0}) {
+    OrderCourse recent = straight;
+    recent.step = step;
+    const Judgement judgement = judged(LengthRule::Last, recent, axes);
+    if (std::pow(judgement.recent / least.recent, 2) < 1 - byChance(judgement.recentSamples)) take(LengthRule::Last, recent, judgement), o.length.miss = judgement.recent;
+  }
+  if (std::pow(least.recent / o.length.miss, 2) > 1 + byChance(least.recentSamples)) o.length.miss = least.recent;
   // Levels are told by the order's course; only what goes on from the segment below has a step of its own.
   OrderCourse course = o.length.rule == LengthRule::Last ? straight : best;
   if (o.length.rule == LengthRule::Last && best.curve != 0) course = best;

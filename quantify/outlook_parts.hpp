@@ -11,27 +11,34 @@
 
 namespace axil::quantify {
 
-/// Logarithms of an axis' lengths.
-[[nodiscard]] std::vector<double> logLengths(const Measurements& m, const Axis& axis);
+/// An axis' lengths from its base, as logarithms, and the stage in which it began.
+struct AxisLengths {
+  std::vector<double> logs;
+  double begun = 0;
+};
+[[nodiscard]] AxisLengths lengthsOf(const MeasuredPlant& plant, const PlantSchedule& schedule, const Axis& axis);
 
-/// How lengths of one order run along an axis: from the order's start with a step a rank, which changes by `curve` a rank; an axis' own level counts by how many segments tell it,
-/// against `weight`.
+/// How lengths of one order run along an axis: from the order's start with a step a rank (or a stage of the plant), which changes by `curve` a rank; an axis' own level
+/// counts by how many segments tell it, against `weight`.
 struct OrderCourse {
+  LengthsAlong along = LengthsAlong::Rank;
   double start = 0;     ///< logarithms
   double step = 0;
   double curve = 0;
   double weight = 100;  ///< of the order, in segments
   double stepError = 0, curveError = 0;
   double bothErrors = 0;  ///< covariance of the two
-  [[nodiscard]] double at(double rank) const;
-  /// By how much an axis lies above the course, on average.
-  [[nodiscard]] double levelOf(std::span<const double> logs) const;
-  /// The length at `rank` of an axis with such lengths.
-  [[nodiscard]] double levelAt(std::span<const double> logs, double rank) const;
+  /// Where the segment of that rank stands on the course.
+  [[nodiscard]] double placeOf(const AxisLengths& axis, std::size_t rank) const { return static_cast<double>(rank) + (along == LengthsAlong::Stage ? axis.begun : 0); }
+  [[nodiscard]] double at(double place) const;
+  /// By how much the first `count` segments of an axis lie above the course, on average.
+  [[nodiscard]] double levelOf(const AxisLengths& axis, std::size_t count) const;
+  /// The length at `rank` by those.
+  [[nodiscard]] double levelAt(const AxisLengths& axis, std::size_t count, std::size_t rank) const;
 };
 
-/// Foretells one rank of an axis from the ranks below it.
-[[nodiscard]] double foretold(LengthRule rule, std::span<const double> below, const OrderCourse& course);
+/// Foretells the next segment of an axis from its first `below`.
+[[nodiscard]] double foretold(LengthRule rule, const AxisLengths& axis, std::size_t below, const OrderCourse& course);
 /// Of the logarithm of a next length: its scatter, the doubt about the axis' level, and that about the order's steps on the way there.
 [[nodiscard]] double doubtOf(const LengthOutlook& length, std::size_t below, const OrderCourse& course);
 /// Sets by which rule an order's lengths are foretold; returns how its lengths run.

@@ -35,7 +35,7 @@ ArmPlaces placesOf(const std::vector<Arms>& all) {
 }
 
 /// Of the axes of orders from `low` to `high` that have a bearer.
-std::vector<Start> startsOf(std::span<const MeasuredPlant> plants, const std::map<int, OrderCourse>& courses, const ArmPlaces& arms, int low, int high) {
+std::vector<Start> startsOf(std::span<const MeasuredPlant> plants, const Schedule& schedule, const std::map<int, OrderCourse>& courses, const ArmPlaces& arms, int low, int high) {
   std::vector<Start> starts;
   for (std::size_t p = 0; p < plants.size(); ++p) {
     const Measurements& m = *plants[p].measurements;
@@ -44,7 +44,8 @@ std::vector<Start> startsOf(std::span<const MeasuredPlant> plants, const std::ma
       if (axis.order < low || axis.order > high || !axis.bearer) continue;
       const SegmentPlace& place = structure.at(*axis.bearer);
       const double own = std::log(m.at(axis.base()).length);
-      const double level = courses.at(place.order).levelAt(logLengths(m, structure.at(place.axis)), place.rank);
+      const AxisLengths bearer = lengthsOf(plants[p], schedule.plants[p], structure.at(place.axis));
+      const double level = courses.at(place.order).levelAt(bearer, bearer.logs.size(), static_cast<std::size_t>(place.rank));
       Start start{own, own - std::log(m.at(*axis.bearer).length), own - level, {0, 0}};
       if (const auto arm = arms.find({p, axis.base()}); arm != arms.end()) start.arm = arm->second;
       starts.push_back(start);
@@ -131,12 +132,12 @@ void setStarts(Outlook& outlook, std::span<const MeasuredPlant> plants, const st
     OrderOutlook& o = outlook.orders[static_cast<std::size_t>(order)];
     setCollar(o, plants);
     const std::vector<Arms> arms = together ? every : armsOf(plants, order - 1, order - 1, ArmsBy::Lean);
-    const std::vector<Start> starts = startsOf(plants, courses, placesOf(arms), order, order);
+    const std::vector<Start> starts = startsOf(plants, outlook.statistics.schedule, courses, placesOf(arms), order, order);
     choose(o, starts);
     if (order > 0 && !together) setArms(outlook.orders[static_cast<std::size_t>(order - 1)], plants, arms, starts, o.start);
   }
   if (!together || top < 1) return;
-  const std::vector<Start> starts = startsOf(plants, courses, placesOf(every), 1, top);
+  const std::vector<Start> starts = startsOf(plants, outlook.statistics.schedule, courses, placesOf(every), 1, top);
   OrderOutlook above = outlook.orders.back();
   above.order = top + 1;
   choose(above, starts);
