@@ -18,6 +18,12 @@ std::size_t held(const Engine::State& s) {
 
 std::string stepText(std::int64_t step) { return "in step " + std::to_string(step + 1); }
 
+/// The block of statements that `runHeader` runs.
+const char* headerName(std::uint64_t which) {
+  static constexpr const char* kNames[] = {"Start", "StartEach", "EndEach", "End"};
+  return kNames[which - 1];
+}
+
 bool hasStatements(const RuleTable& table) {
   return std::any_of(table.rules.begin(), table.rules.end(), [](const CompiledRule& rule) { return rule.statements; });
 }
@@ -109,8 +115,9 @@ Result<void> Engine::State::runHeader(const Code& code, Instance& instance, std:
   m.run(code, nullptr);
   if (m.newSeed) random = Rng(*m.newSeed);
   m.newSeed.reset();
-  if (m.trouble()) return failure(*m.trouble(), nullptr);
-  return {};
+  if (!m.trouble()) return {};
+  const Error& error = *m.trouble();
+  return error.code == ErrorCode::Cancelled ? fail(error) : fail(error.code, error.message + " in " + headerName(which) + (which == 2 || which == 3 ? ", " + stepText(steps) : ""));
 }
 
 Result<void> Engine::State::startInstance(Instance& instance) {

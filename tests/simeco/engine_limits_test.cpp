@@ -90,6 +90,9 @@ TEST(EngineLimits, StepsLoopsAndDepthAreLimited) {
   DeriveOptions options = small();
   EXPECT_TRUE(has(endOf("Lsystem: 1\nderivation length: 100000\nAxiom: AB\nB --> C\nC --> B\nendlsystem\n", options), "limited to 2000 steps"));
   EXPECT_TRUE(has(endOf(std::string(kHead) + "Axiom: A\nA : {i=0; while (1) {i=i+1;}} * --> A\nendlsystem\n", options), "loop ran more than 100000 times"));
+  // Trouble in a block of the header names the block.
+  EXPECT_TRUE(endOf("Lsystem: 1\nderivation length: 2\nStart: {i=0; while (1) {i=i+1;}}\nAxiom: A\nA --> A\nendlsystem\n", options).ends_with("100000 times in Start"));
+  EXPECT_TRUE(has(endOf("Lsystem: 1\nderivation length: 9\nStart: {n=3;}\nStartEach: {n=n-1; x=1/n;}\nAxiom: A\nA --> AB\nendlsystem\n", options), "zero in StartEach, in step 3"));
   std::string deep = "x";
   for (int i = 0; i < 150; ++i) deep = "(" + deep + "+1)";
   options.limits.expressionDepth = 100;
