@@ -82,13 +82,17 @@ std::optional<ClickMeaning> insert(const Project& project, std::optional<NodeId>
   return ClickMeaning{ClickKind::Insert, insertAt(project, *place, click), {.node = document::nextNodeId(project), .others = {}}, place->above, place->stem};
 }
 
+/// How far from the origin a first stem is still taken to begin at it, of the photo's longer side.
+constexpr double kCollar = 0.01;
+
 /// The plant's base: a click on the origin that was set in this photo stands for those in the others too.
 ClickMeaning beginStem(const Project& project, const PhotoClick& click) {
   const NodeId node = document::nextNodeId(project);
   const StemId stem = document::nextStemId(project);
   Step step{document::AddNode{node, click.view, click.at}, document::AddStem{stem, {node}}};
-  const auto& origin = project.views[*document::viewNamed(project, click.view)].origin_px;
-  if (origin && glm::distance(origin->px, click.at.px) <= click.reach_px)
+  const document::ProjectView& clicked = project.views[*document::viewNamed(project, click.view)];
+  const double near = project.stems.empty() ? kCollar * std::max(clicked.view.size_px.x, clicked.view.size_px.y) : 0;
+  if (clicked.origin_px && glm::distance(clicked.origin_px->px, click.at.px) <= std::max(near, click.reach_px))
     for (const document::ProjectView& view : project.views)
       if (view.view.name != click.view && view.origin_px) step.emplace_back(document::AddClick{node, view.view.name, *view.origin_px});
   return {ClickKind::Begin, std::move(step), {.node = node, .others = {}}, node, stem};

@@ -1,4 +1,4 @@
-#include "ui/epipolar.hpp"
+#include "ui/elsewhere.hpp"
 #include "ui/leaf_steps.hpp"
 #include "ui/photo_pane_interop.hpp"
 #include "ui/stem_steps.hpp"
@@ -75,14 +75,10 @@ void sayTool(const Pane& pane) {
 }
 
 /// The centre line of the stem near `at`. Nothing where snapping is off or no stem is there.
-std::optional<skeleton3d::RidgeReading> ridgeNear(const UiState& state, const skeleton3d::Photo* photo, PhotoPoint at, double zoom) {
-  constexpr double kReach_px = 10, kMost_px = 40;  // of the screen; of the photo, so that a snap keeps up with the mouse
-  if (!state.snap || photo == nullptr) return std::nullopt;
-  return skeleton3d::snapClick(*photo, at, {.reach_px = std::clamp(kReach_px / zoom, 2.0, kMost_px)});
-}
-
 std::optional<skeleton3d::RidgeReading> ridgeNear(const Pane& pane, PhotoPoint at) {
-  return ridgeNear(pane.state(), pane.photo != nullptr && pane.photo->tiles ? &pane.photo->tiles->photo() : nullptr, at, pane.lens.frame.zoom);
+  constexpr double kReach_px = 10, kMost_px = 40;  // of the screen; of the photo, so that a snap keeps up with the mouse
+  if (!pane.state().snap || pane.photo == nullptr || !pane.photo->tiles) return std::nullopt;
+  return skeleton3d::snapClick(pane.photo->tiles->photo(), at, {.reach_px = std::clamp(kReach_px / pane.lens.frame.zoom, 2.0, kMost_px)});
 }
 
 /// The same, where a click may have to do with a stem.
@@ -120,28 +116,18 @@ std::optional<ProposedStem> wholeStem(const Pane& pane, const ClickMeaning& mean
   if (known != nullptr && glm::distance(known->clicks.back().second.px, at.px) < pane.reach()) return *known;
   const skeleton3d::LiveWire* photo = pane.panel.wires.ready(pane.photo->tiles->sharedPhoto());
   auto question = photo == nullptr ? std::nullopt : stemQuestion(pane.panel.project, *placed, *meaning.node, pane.name(), *photo);
-  if (!question || question->nodes.size() < 3) return std::nullopt;
+  if (!question || question->nodes.size() < 3 || !mayPlace(pane.panel.project, *placed, question->first.name, pane.name())) return std::nullopt;
   question->options.endInOther = at;
   return proposedStem(*question);
 }
 
-/// A node put between two others has its place in the other photos too, where those are clicked: where its click's line crosses the stem.
+/// A node put into a stem has its place in the other photos too, on the centre line where there is one.
 void addElsewhere(const Pane& pane, const PlaceOnStem& place, NodeId node, PhotoPoint at, Step& step) {
-  const skeleton3d::Camera* here = cameraOf(pane.panel, pane.name());
   const auto placed = pane.panel.placed();
-  if (here == nullptr || !placed) return;
-  const skeleton3d::Reach scene = placed->scene();
-  for (const document::ProjectView& view : pane.panel.project.views) {
-    const skeleton3d::Camera* there = cameraOf(pane.panel, view.view.name);
-    const PhotoPoint* below = document::clickOf(pane.panel.project, place.below, view.view.name);
-    const PhotoPoint* above = document::clickOf(pane.panel.project, place.above, view.view.name);
-    if (view.view.name == pane.name() || there == nullptr || below == nullptr || above == nullptr) continue;
-    const auto crossed = crossing(epipolarLine(*here, at, *there, scene.centre, scene.radius), *below, *above);
-    if (!crossed) continue;
-    const auto photo = pane.panel.photos.photoOf(pane.panel.session.openProject(), view);
-    const auto ridge = ridgeNear(pane.state(), photo.get(), *crossed, pane.lens.frame.zoom);
-    step.emplace_back(document::AddClick{node, view.view.name, ridge ? ridge->at : *crossed});
-  }
+  if (!placed) return;
+  for (const document::ProjectView& view : pane.panel.project.views)
+    if (const auto there = placeElsewhere(pane.panel.project, *placed, place, pane.name(), at, view.view.name))
+      step.emplace_back(document::AddClick{node, view.view.name, centred(pane.panel.photos.photoOf(pane.panel.session.openProject(), view).get(), *there)});
 }
 
 /// A node on a stem's line, on its centre line where there is one.

@@ -1,4 +1,5 @@
 #include "document/lookup.hpp"
+#include "ui/elsewhere.hpp"
 #include "ui/widgets_interop.hpp"
 
 #include <algorithm>
@@ -6,6 +7,8 @@
 
 namespace axil::ui {
 namespace {
+
+using document::Step;
 
 /// What keeps the plant from being measured, and the nodes that wait for a second photo.
 std::vector<std::string> missing(const Panel& panel) {
@@ -25,25 +28,43 @@ std::vector<std::string> missing(const Panel& panel) {
   return lines;
 }
 
-void stillMissing(const Panel& panel) {
+/// Where the waiting nodes' lines cross their stems in another photo: one click in place of many.
+Taken placeWaiting(const Panel& panel) {
+  const auto placed = panel.placed();
+  if (!placed) return std::nullopt;
+  const std::vector<FoundPlace> found = placesOfWaiting(panel.project, *placed);
+  if (found.empty()) return std::nullopt;
+  gap(panel, 4);
+  const bool pressed = button(panel, "place_waiting", Emphasis::Plain, -1);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", countOf(panel, found.size(), "place_waiting_n").c_str());
+  if (!pressed) return std::nullopt;
+  Step step;
+  for (const FoundPlace& place : found) {
+    const document::ProjectView& view = panel.project.views[*document::viewNamed(panel.project, place.view)];
+    step.emplace_back(document::AddClick{place.node, place.view, centred(panel.photos.photoOf(panel.session.openProject(), view).get(), place.at)});
+  }
+  return step;
+}
+
+Taken stillMissing(const Panel& panel) {
   constexpr std::size_t kMost = 6;
-  if (panel.project.nodes.empty()) return;
+  if (panel.project.nodes.empty()) return std::nullopt;
   const std::vector<std::string> lines = missing(panel);
   panel.state.shownTroubles = lines.size();
-  if (lines.empty()) return;
+  if (lines.empty()) return std::nullopt;
   gap(panel, 6);
   heading(panel, "to_do");
   for (std::size_t i = 0; i < std::min(lines.size(), kMost); ++i) say(panel, NoticeKind::Warned, lines[i]);
   if (lines.size() > kMost) quiet(panel, filled(panel.t("and_more"), {{"n", std::to_string(lines.size() - kMost)}}));
+  return placeWaiting(panel);
 }
 
 }  // namespace
 
 Taken stemsPanel(const Panel& panel) {
-  Taken taken;
   heading(panel, "way_stems");
   quiet(panel, panel.t(panel.project.stems.empty() ? "stems_first" : "stems_help"));
-  stillMissing(panel);
+  Taken taken = stillMissing(panel);
   gap(panel, 4);
   const auto chosen = panel.state.selection.node ? stemOf(panel.project, *panel.state.selection.node) : std::nullopt;
   for (const auto& entry : panel.project.stems) {
