@@ -264,6 +264,7 @@ struct UiState {
   std::optional<Question> question;
   bool leaveUnsaved = false;       ///< the user gave the unsaved work up
   std::optional<Notice> notice;    ///< of the last thing done; until the next
+  std::pair<std::uint64_t, std::size_t> placeable;  ///< the plant that was followed last, and how many of its waiting nodes have a place
   std::size_t shownTroubles = 0;   ///< lines of what is still missing, this frame
   std::string status;              ///< what a click would do now
   std::map<std::string, std::array<float, 4>, std::less<>> landmarks;  ///< x, y, width, height of what can be pressed, this frame

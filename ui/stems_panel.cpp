@@ -31,19 +31,20 @@ std::vector<std::string> missing(const Panel& panel) {
 /// Where the waiting nodes' lines cross their stems in another photo: one click in place of many.
 Taken placeWaiting(const Panel& panel) {
   const auto placed = panel.placed();
+  auto& [followed, places] = panel.state.placeable;
   if (!placed) return std::nullopt;
-  const std::vector<FoundPlace> found = placesOfWaiting(panel.project, *placed);
-  if (found.empty()) return std::nullopt;
+  if (followed != panel.following.revision) followed = panel.following.revision, places = placesOfWaiting(panel.project, *placed).size();
+  if (places == 0) return std::nullopt;
   gap(panel, 4);
   const bool pressed = button(panel, "place_waiting", Emphasis::Plain, -1);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", countOf(panel, found.size(), "place_waiting_n").c_str());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", countOf(panel, places, "place_waiting_n").c_str());
   if (!pressed) return std::nullopt;
   Step step;
-  for (const FoundPlace& place : found) {
+  for (const FoundPlace& place : placesOfWaiting(panel.project, *placed)) {
     const document::ProjectView& view = panel.project.views[*document::viewNamed(panel.project, place.view)];
     step.emplace_back(document::AddClick{place.node, place.view, centred(panel.photos.photoOf(panel.session.openProject(), view).get(), place.at)});
   }
-  return step;
+  return step.empty() ? std::nullopt : std::optional(std::move(step));
 }
 
 Taken stillMissing(const Panel& panel) {

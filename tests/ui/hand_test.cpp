@@ -149,6 +149,16 @@ TEST(Hand, ThePaletteDoesWhatItsNameSays) {
   EXPECT_TRUE(headless.studio().state().loupe);
 }
 
+TEST(Hand, WaitingNodesArePlacedOnTheirStemsWithOnePressAsOneStep) {
+  HeadlessStudio headless = opened();
+  run(headless, "remove_click 3 right ; remove_click 3 top ; remove_click 4 right ; remove_click 4 top\nui wait\nui press place_waiting\nui wait\n");
+  const document::Project& project = headless.studio().session().project();
+  for (const int id : {3, 4}) EXPECT_EQ(project.nodes[document::nodeWithId(project, document::NodeId(id)).value()].node.clicks.size(), 2u) << id;
+  run(headless, "undo\n");
+  const document::Project& before = headless.studio().session().project();
+  EXPECT_EQ(before.nodes[document::nodeWithId(before, document::NodeId(3)).value()].node.clicks.size(), 1u);
+}
+
 TEST(Hand, ABorderThatIsDraggedGivesRoom) {
   HeadlessStudio headless = opened();
   const float before = headless.studio().state().preferences.layout.left;
