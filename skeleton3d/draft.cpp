@@ -2,6 +2,7 @@
 
 #include "skeleton3d/camera.hpp"
 #include "skeleton3d/draft_cubes.hpp"
+#include "skeleton3d/draft_settle.hpp"
 #include "skeleton3d/polyline.hpp"
 #include "skeleton3d/solve_all.hpp"
 
@@ -187,7 +188,7 @@ double radiusAt(std::span<const SeenMask> masks, PlantPoint at) {
 DraftStem stemOf(std::span<const SeenMask> masks, const Cubes& cubes, const Chosen& way) {
   DraftStem stem;
   stem.parent = way.parent;
-  const std::vector<glm::dvec3> points = smoothed(cubes, way.cubes);
+  const std::vector<glm::dvec3> points = detail::settledOnLines(masks, smoothed(cubes, way.cubes), cubes.side);
   double length = 0;
   for (std::size_t i = 1; i < points.size(); ++i) length += glm::length(points[i] - points[i - 1]) / cubes.side;
   for (const std::size_t i : detail::fewWithin(points, 0.6 * cubes.side)) stem.points.push_back({points[i]}), stem.radius.push_back(radiusAt(masks, {points[i]}));

@@ -29,7 +29,7 @@ using detail::StemCell;
 using detail::StemLine;
 using detail::StemnessMap;
 
-constexpr std::size_t kMostPlaces = 180;  ///< along a way; bounds the time of a step
+constexpr std::size_t kMostPlaces = 140;  ///< along a way; bounds the time of a step
 
 glm::dvec2 acrossOf(glm::dvec2 along) { return {-along.y, along.x}; }
 
@@ -135,7 +135,8 @@ Middle middleAt(const Photo& photo, const StemLine& line, std::size_t i, double 
   const RidgeProfile profile = profileAcross(photo, {}, line.at[i], acrossOf(line.along[i]), options);
   Middle best;
   double most = 0;
-  for (double middle = -reach; middle <= reach; middle += kRidgeStep_px)
+  const double step = std::max(kRidgeStep_px, 0.02 * width);  // a wide stem's edges are looked for as finely afterwards
+  for (double middle = -reach; middle <= reach; middle += step)
     for (const double scale : {0.7, 0.85, 1.0, 1.2, 1.45}) {
       const double half = 0.5 * scale * width, strength = ridgeStrength(profile, middle - half, middle + half), away = middle / (1.5 * reach);
       if (const double worth = strength * std::exp(-0.5 * away * away); worth > most) most = worth, best = {middle, 2 * half, strength};

@@ -75,8 +75,7 @@ TEST(Maize, StemAndLeavesTracedFromThreeSilhouettesLieOnTheirMedialLines) {
       here.insert(here.end(), off.begin(), off.end());
     }
     std::printf("%s: %.2f px from the medial lines (median)\n", view.name.c_str(), median(here));
-    // From above the leaves' tips had swayed by up to 13 px between the photos (README of the data), so that view alone is less exact.
-    EXPECT_LE(median(here), view.name == "top" ? 6 : 3);
+    EXPECT_LE(median(here), 3);
     all.insert(all.end(), here.begin(), here.end());
   }
   std::printf("%zu stems and leaves, %.2f px (median over the views)\n", tree->stems.size(), median(all));
