@@ -5,18 +5,19 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 namespace axil::quantify {
 
 namespace {
 
 constexpr std::size_t kJudges = 3;
-constexpr double kMostWeight = 100;      // segments: axes that do not differ
-constexpr double kClearCurve = 3;        // standard errors that a curve must have
-constexpr std::size_t kCurveSamples = 20;
 constexpr double kSlightlyBetter = 0.98;
 constexpr double kClearlyBetter = 0.95;
-constexpr double kFading = 0.5;          // of a miss' weight, by rank from the tip
+constexpr double kFading = 0.6;          // of what the young tell, by stage
+constexpr std::size_t kHindsight = 2;    // youngest segments of each axis that are foretold again from what is below them
+constexpr std::size_t kFewHindsights = 8;
+constexpr double kExact = 1e-6;          // misses of rounding alone
 
 using Axes = std::vector<AxisLengths>;
 
@@ -40,147 +41,132 @@ double levelDoubt(LengthRule rule, std::size_t below, const OrderCourse& course)
   return rule == LengthRule::Axis ? std::sqrt(1 + 1 / (static_cast<double>(below) + course.weight)) : 1;
 }
 
-double pairsBelow(double rank) { return rank * (rank - 1) / 2; }
-
-/// The line along the rank that layers.hpp has.
-OrderCourse straightCourse(const OrderLayer& layer, std::size_t axes) {
-  const Trend& trend = layer.trend;
-  OrderCourse course;
-  course.start = trend.start;
-  course.step = trend.clear() ? trend.slope : 0;
-  course.stepError = trend.slopeError;
-  // Axes of one segment say nothing of levels.
-  if (layer.estimate.samples > axes) course.weight = std::min(kMostWeight, std::pow(trend.residual / std::max(trend.axisDeviation, 1e-9), 2));
-  return course;
-}
-
-/// Sums of weighted products within axes, of rank (r), pairs below (q) and logarithm (y).
-struct Products {
-  double rr = 0, rq = 0, qq = 0, ry = 0, qy = 0;
-};
-
-/// A step that itself changes evenly from rank to rank: least squares within axes, in which misses beyond 2 deviations count less. None where it is no more than chance.
-std::optional<OrderCourse> curvedCourse(const Axes& axes, LengthsAlong along) {
-  std::size_t samples = 0, freedom = 0;
-  for (const AxisLengths& axis : axes) {
-    samples += axis.logs.size();
-    freedom += axis.logs.size() - 1;
-  }
-  if (samples < kCurveSamples || freedom < kCurveSamples / 2) return std::nullopt;
-  OrderCourse course;
-  course.along = along;
-  double reach = std::numeric_limits<double>::infinity(), curveError = 0;
-  for (int round = 0; round < 5; ++round) {
-    Products sum;
-    std::vector<double> offs;
-    for (const AxisLengths& axis : axes) {
-      const std::vector<double>& logs = axis.logs;
-      const double own = course.levelOf(axis, logs.size());
-      double w = 0, r = 0, q = 0, y = 0;
-      const auto weightOf = [&](std::size_t i) { return std::min(1.0, reach / std::max(1e-12, std::abs(logs[i] - course.at(course.placeOf(axis, i)) - own))); };
-      const auto each = [&](const std::function<void(double, double, double, double)>& visit) {
-        for (std::size_t i = 0; i < logs.size(); ++i) visit(weightOf(i), course.placeOf(axis, i), pairsBelow(course.placeOf(axis, i)), logs[i]);
-      };
-      each([&](double weight, double ri, double qi, double yi) { w += weight, r += weight * ri, q += weight * qi, y += weight * yi; });
-      r /= w, q /= w, y /= w;
-      each([&](double weight, double ri, double qi, double yi) {
-        sum.rr += weight * (ri - r) * (ri - r), sum.rq += weight * (ri - r) * (qi - q), sum.qq += weight * (qi - q) * (qi - q);
-        sum.ry += weight * (ri - r) * (yi - y), sum.qy += weight * (qi - q) * (yi - y);
-      });
-    }
-    const double determinant = sum.rr * sum.qq - sum.rq * sum.rq;
-    if (determinant <= 1e-9 * sum.rr * sum.qq) return std::nullopt;
-    course.start = 0;
-    course.step = (sum.ry * sum.qq - sum.qy * sum.rq) / determinant;
-    course.curve = (sum.qy * sum.rr - sum.ry * sum.rq) / determinant;
-    double squares = 0;
-    std::vector<double> levels;
-    for (const AxisLengths& axis : axes) {
-      levels.push_back(course.levelOf(axis, axis.logs.size()));
-      for (std::size_t i = 0; i < axis.logs.size(); ++i) {
-        offs.push_back(std::abs(axis.logs[i] - course.at(course.placeOf(axis, i)) - levels.back()));
-        squares += offs.back() * offs.back();
-      }
-    }
-    const double deviation = std::sqrt(squares / static_cast<double>(freedom));
-    reach = std::max(2 * 1.4826 * medianOf(offs), 1e-9);
-    course.stepError = deviation * std::sqrt(sum.qq / determinant);
-    course.curveError = curveError = deviation * std::sqrt(sum.rr / determinant);
-    course.bothErrors = -deviation * deviation * sum.rq / determinant;
-    const Centre centre = centreOf(levels);
-    course.weight = std::min(kMostWeight, std::pow(deviation / std::max(centre.deviation, 1e-9), 2));
-    if (round == 4) course.start = centre.value;
-  }
-  return std::abs(course.curve) > kClearCurve * curveError ? std::optional(course) : std::nullopt;
-}
-
-/// What counts less the further below its axis' tip it is.
-double recency(const AxisLengths& axis, std::size_t rank) { return std::pow(kFading, static_cast<double>(axis.logs.size() - 1 - rank)); }
-
-/// How well a rule foretells the measured lengths: the deviation of its misses as they are, and as they would be for an axis whose level is known; and
-/// that of the youngest.
+/// How well a rule foretells the measured lengths: the deviation of its misses as they are, and as they would be for an axis whose level is known.
 struct Judgement {
   double miss = 0;
   double alike = 0;
   std::size_t samples = 0;
-  double recent = 0;
-  double recentSamples = 0;
 };
 Judgement judged(LengthRule rule, const OrderCourse& course, const Axes& axes) {
   std::vector<double> misses, alike;
-  double weights = 0, squares = 0;
   for (const AxisLengths& axis : axes)
     for (std::size_t r = 1; r < axis.logs.size(); ++r) {
       misses.push_back(axis.logs[r] - foretold(rule, axis, r, course));
       alike.push_back(misses.back() / levelDoubt(rule, r, course));
-      weights += recency(axis, r);
-      squares += recency(axis, r) * alike.back() * alike.back();
     }
-  return {deviationOf(misses), deviationOf(alike), misses.size(), weights > 0 ? std::sqrt(squares / weights) : 0, weights};
+  return {deviationOf(misses), deviationOf(alike), misses.size()};
 }
 
-/// By how much a variance told by so many samples is off by chance, twice over.
-double byChance(double samples) { return 2 * std::sqrt(2 / samples); }
+/// A way to foretell lengths, and what it made of the axes.
+struct Candidate {
+  LengthRule rule = LengthRule::Trend;
+  OrderCourse course;
+  double better = 1;      ///< what share of the misses of those before it it may have at most
+};
+
+OrderCourse stepped(OrderCourse course, double step) {
+  course.step = step;
+  return course;
+}
 
 /// What is usual from segment to segment among the youngest.
 double recentStep(const Axes& axes) {
   double sum = 0, weights = 0;
   for (const AxisLengths& axis : axes)
     for (std::size_t r = 1; r < axis.logs.size(); ++r) {
-      sum += recency(axis, r) * (axis.logs[r] - axis.logs[r - 1]);
-      weights += recency(axis, r);
+      const double w = axis.faded(r, kFading);
+      sum += w * (axis.logs[r] - axis.logs[r - 1]);
+      weights += w;
     }
   return weights > 0 ? sum / weights : 0;
 }
 
+/// Courses along which all of the axes run. An order that stops after its stages loses count of them.
+std::vector<Candidate> lastingCandidates(const Axes& axes, const OrderCourse& straight, double usualStep, bool countsStages) {
+  std::vector<Candidate> all{{LengthRule::Trend, straight, kSlightlyBetter}, {LengthRule::Axis, straight, kSlightlyBetter}, {LengthRule::Last, stepped(straight, usualStep), kSlightlyBetter}};
+  for (const LengthsAlong along : {LengthsAlong::Rank, LengthsAlong::Stage}) {
+    if (along == LengthsAlong::Stage && !countsStages) continue;
+    const auto curved = curvedCourse(axes, along, 1);
+    if (!curved) continue;
+    all.push_back({LengthRule::Trend, *curved, kClearlyBetter});
+    all.push_back({LengthRule::Axis, *curved, kSlightlyBetter});
+    all.push_back({LengthRule::Last, *curved, kSlightlyBetter});
+  }
+  return all;
+}
+
+/// What the youngest do among themselves, whatever was below.
+std::vector<Candidate> recentCandidates(const Axes& axes, const OrderCourse& straight, bool countsStages) {
+  std::vector<Candidate> all{{LengthRule::Last, stepped(straight, 0)}, {LengthRule::Last, stepped(straight, recentStep(axes))}};
+  for (const LengthsAlong along : {LengthsAlong::Rank, LengthsAlong::Stage}) {
+    if (along == LengthsAlong::Stage && !countsStages) continue;
+    if (const auto curved = curvedCourse(axes, along, kFading)) all.push_back({LengthRule::Last, *curved});
+  }
+  return all;
+}
+
+/// Made in one way of different axes.
+bool alike(const Candidate& a, const Candidate& b) { return a.rule == b.rule && a.course.along == b.course.along && (a.course.curve == 0) == (b.course.curve == 0); }
+
+/// The line along the rank of those axes alone, and the step from each segment to the next.
+std::pair<OrderCourse, double> straightOf(const Axes& axes) {
+  std::vector<Sample> samples;
+  std::vector<std::size_t> axisOf;
+  std::vector<double> steps;
+  for (std::size_t a = 0; a < axes.size(); ++a)
+    for (std::size_t r = 0; r < axes[a].logs.size(); ++r) {
+      samples.push_back({0, 0, static_cast<int>(r), axes[a].logs[r]});
+      axisOf.push_back(a);
+      if (r > 0) steps.push_back(axes[a].logs[r] - axes[a].logs[r - 1]);
+    }
+  return {straightCourse(trendOf(samples, axisOf, false), samples.size(), axes.size()), centreOf(steps).value};
+}
+
+/// Axes without their last `count` segments; those of no more are gone.
+Axes withoutLast(const Axes& axes, std::size_t count) {
+  Axes cut;
+  for (const AxisLengths& axis : axes) {
+    if (axis.logs.size() <= count) continue;
+    cut.push_back(axis);
+    cut.back().logs.resize(axis.logs.size() - count);
+  }
+  return cut;
+}
+
+/// Misses of the youngest segments of axes that grow, each foretold from courses fitted to what is below it: of what `chosen` would have been, and of each recent candidate.
+struct Hindsight {
+  std::size_t samples = 0;
+  double chosen = 0;
+  std::vector<double> recent;   ///< infinite where it would not have been there
+};
+Hindsight hindsightOf(const Axes& axes, const Candidate& chosen, const std::vector<Candidate>& recent, bool countsStages) {
+  std::vector<double> own;
+  std::vector<std::vector<double>> others(recent.size());
+  for (std::size_t back = 1; back <= kHindsight; ++back) {
+    const Axes below = withoutLast(axes, back);
+    if (below.empty()) break;
+    const auto [straight, step] = straightOf(below);
+    const std::vector<Candidate> lasting = lastingCandidates(below, straight, step, countsStages), young = recentCandidates(below, straight, countsStages);
+    const auto missesOf = [&](const std::vector<Candidate>& all, std::vector<Candidate>::const_iterator found) {
+      std::vector<double> misses;
+      if (found == all.end()) return misses;
+      for (const AxisLengths& axis : axes)
+        if (const std::size_t known = axis.logs.size() - std::min(back, axis.logs.size()); known > 0 && axis.rests < 1)
+          misses.push_back((axis.logs[known] - foretold(found->rule, axis, known, found->course)) / levelDoubt(found->rule, known, found->course));
+      return misses;
+    };
+    const auto append = [](std::vector<double>& to, const std::vector<double>& more) { to.insert(to.end(), more.begin(), more.end()); };
+    append(own, missesOf(lasting, std::find_if(lasting.begin(), lasting.end(), [&](const Candidate& c) { return alike(c, chosen); })));
+    // The first two, of no step and of a recent one, are always there.
+    for (std::size_t i = 0; i < recent.size(); ++i)
+      append(others[i], missesOf(young, i < 2 ? young.begin() + static_cast<std::ptrdiff_t>(i) : std::find_if(young.begin() + 2, young.end(), [&](const Candidate& c) { return alike(c, recent[i]); })));
+  }
+  Hindsight result{own.size(), deviationOf(own), {}};
+  for (const auto& misses : others) result.recent.push_back(misses.size() == own.size() ? deviationOf(misses) : std::numeric_limits<double>::infinity());
+  return result;
+}
+
 }  // namespace
-
-AxisLengths lengthsOf(const MeasuredPlant& plant, const PlantSchedule& schedule, const Axis& axis) {
-  AxisLengths lengths;
-  for (const SegmentId s : axis.segments) lengths.logs.push_back(std::log(plant.measurements->at(s).length));
-  lengths.begun = schedule.birth[static_cast<std::size_t>(axis.base().value)];
-  return lengths;
-}
-
-double OrderCourse::at(double place) const { return start + step * place + curve * pairsBelow(place); }
-
-double OrderCourse::levelOf(const AxisLengths& axis, std::size_t count) const {
-  double off = 0;
-  for (std::size_t i = 0; i < count; ++i) off += axis.logs[i] - at(placeOf(axis, i));
-  return count == 0 ? 0 : off / static_cast<double>(count);
-}
-
-double OrderCourse::levelAt(const AxisLengths& axis, std::size_t count, std::size_t rank) const {
-  const double known = static_cast<double>(count);
-  return at(placeOf(axis, rank)) + levelOf(axis, count) * known / (known + weight);
-}
-
-double foretold(LengthRule rule, const AxisLengths& axis, std::size_t below, const OrderCourse& course) {
-  const double place = course.placeOf(axis, below);
-  if (rule == LengthRule::Last && below > 0) return axis.logs[below - 1] + course.at(place) - course.at(place - 1);
-  if (rule == LengthRule::Axis && below > 0) return course.levelAt(axis, below, below);
-  return course.at(place);
-}
 
 double doubtOf(const LengthOutlook& length, std::size_t below, const OrderCourse& course) {
   const double scatter = length.miss * levelDoubt(length.rule, below, course);
@@ -188,8 +174,9 @@ double doubtOf(const LengthOutlook& length, std::size_t below, const OrderCourse
   // What comes next lies further on than the middle of what is known.
   const double count = static_cast<double>(below);
   const double r = (count + 1) / 2;
-  double q = pairsBelow(count);
-  for (std::size_t i = 0; i < below; ++i) q -= pairsBelow(static_cast<double>(i)) / count;
+  const auto pairs = [](double rank) { return rank * (rank - 1) / 2; };
+  double q = pairs(count);
+  for (std::size_t i = 0; i < below; ++i) q -= pairs(static_cast<double>(i)) / count;
   const double variance = r * r * course.stepError * course.stepError + q * q * course.curveError * course.curveError + 2 * r * q * course.bothErrors;
   return std::sqrt(scatter * scatter + std::max(0.0, variance));
 }
@@ -198,46 +185,37 @@ OrderCourse setLength(OrderOutlook& o, std::span<const MeasuredPlant> plants, co
   const OrderLayer& layer = *statistics.of(Quantity::Length).order(o.order);
   const QuantityLayers& ratios = statistics.of(Quantity::LengthRatio);
   const Axes axes = axesOf(plants, statistics.schedule, o.order);
+  const bool countsStages = !o.schedule.lasting;
   o.segments = layer.estimate.samples;
-  OrderCourse best = straightCourse(layer, o.schedule.axes);
+  const OrderCourse straight = straightCourse(layer.trend, layer.estimate.samples, o.schedule.axes);
+  const double usualStep = ratios.all.samples > 0 ? std::log(ratios.nearest(o.order).value) : 0;
+
+  Candidate best{LengthRule::Trend, straight};
   Judgement least{.miss = std::numeric_limits<double>::infinity()};
-  const auto take = [&](LengthRule rule, const OrderCourse& course, const Judgement& judgement) {
-    least = judgement;
-    best = course;
-    o.length = {rule, course.along, std::exp(course.step), std::exp(course.curve), judgement.alike, judgement.samples};
-  };
-  const auto consider = [&](LengthRule rule, const OrderCourse& course, double better) {
-    const Judgement judgement = judged(rule, course, axes);
+  for (const Candidate& candidate : lastingCandidates(axes, straight, usualStep, countsStages)) {
+    const Judgement judgement = judged(candidate.rule, candidate.course, axes);
     // A later rule must be better by more than rounding; where too few misses judge, the segment below it is.
-    if (judgement.samples >= kJudges && judgement.miss >= better * least.miss) return;
-    if (judgement.samples < kJudges && rule != LengthRule::Last) return;
-    take(rule, course, judgement);
-  };
-  const OrderCourse straight = best;
-  consider(LengthRule::Trend, straight, kSlightlyBetter);
-  consider(LengthRule::Axis, straight, kSlightlyBetter);
-  OrderCourse last = straight;
-  last.step = ratios.all.samples > 0 ? std::log(ratios.nearest(o.order).value) : 0;
-  consider(LengthRule::Last, last, kSlightlyBetter);
-  // An order that stops after its stages loses count of them.
-  for (const LengthsAlong along : {LengthsAlong::Rank, LengthsAlong::Stage}) {
-    const auto curved = along == LengthsAlong::Stage && o.schedule.lasting ? std::nullopt : curvedCourse(axes, along);
-    if (!curved) continue;
-    consider(LengthRule::Trend, *curved, kClearlyBetter);
-    consider(LengthRule::Axis, *curved, kSlightlyBetter);
-    consider(LengthRule::Last, *curved, kSlightlyBetter);
+    if (judgement.samples >= kJudges && judgement.miss >= candidate.better * least.miss) continue;
+    if (judgement.samples < kJudges && candidate.rule != LengthRule::Last) continue;
+    least = judgement;
+    best = candidate;
   }
-  // Where the youngest have left what all follow, they go on as they do among themselves, or stay as they are.
-  for (const double step : {recentStep(axes), 0.0}) {
-    OrderCourse recent = straight;
-    recent.step = step;
-    const Judgement judgement = judged(LengthRule::Last, recent, axes);
-    if (std::pow(judgement.recent / least.recent, 2) < 1 - byChance(judgement.recentSamples)) take(LengthRule::Last, recent, judgement), o.length.miss = judgement.recent;
+  // Where that would have foretold the youngest clearly worse than they do each other, they go on among themselves.
+  const std::vector<Candidate> recent = recentCandidates(axes, straight, countsStages);
+  const Hindsight hindsight = hindsightOf(axes, best, recent, countsStages);
+  if (hindsight.samples >= kFewHindsights && hindsight.chosen > kExact) {
+    const double byChance = 2 * std::sqrt(2 / static_cast<double>(hindsight.samples));
+    const auto leastRecent = std::min_element(hindsight.recent.begin(), hindsight.recent.end());
+    if (std::pow(*leastRecent / hindsight.chosen, 2) < 1 - byChance) {
+      best = recent[static_cast<std::size_t>(leastRecent - hindsight.recent.begin())];
+      least.alike = *leastRecent;
+    } else if (std::pow(hindsight.chosen / least.alike, 2) > 1 + byChance) {
+      least.alike = hindsight.chosen;
+    }
   }
-  if (std::pow(least.recent / o.length.miss, 2) > 1 + byChance(least.recentSamples)) o.length.miss = least.recent;
+  o.length = {best.rule, best.course.along, std::exp(best.course.step), std::exp(best.course.curve), least.alike, least.samples};
   // Levels are told by the order's course; only what goes on from the segment below has a step of its own.
-  OrderCourse course = o.length.rule == LengthRule::Last ? straight : best;
-  if (o.length.rule == LengthRule::Last && best.curve != 0) course = best;
+  const OrderCourse course = best.rule == LengthRule::Last && best.course.curve == 0 ? straight : best.course;
   o.usualLength = std::exp(course.start);
   return course;
 }

@@ -5,16 +5,20 @@
 #include "quantify/outlook.hpp"
 
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace axil::quantify {
 
-/// An axis' lengths from its base, as logarithms, and the stage in which it began.
+/// An axis' lengths from its base, as logarithms.
 struct AxisLengths {
   std::vector<double> logs;
-  double begun = 0;
+  double begun = 0;     ///< stage of the first
+  double rests = 0;     ///< stages since the last
+  /// What counts by `fading` a stage since it was made.
+  [[nodiscard]] double faded(std::size_t rank, double fading) const;
 };
 [[nodiscard]] AxisLengths lengthsOf(const MeasuredPlant& plant, const PlantSchedule& schedule, const Axis& axis);
 
@@ -36,6 +40,12 @@ struct OrderCourse {
   /// The length at `rank` by those.
   [[nodiscard]] double levelAt(const AxisLengths& axis, std::size_t count, std::size_t rank) const;
 };
+
+/// The line along the rank that layers.hpp has, told by so many samples on so many axes.
+[[nodiscard]] OrderCourse straightCourse(const Trend& trend, std::size_t samples, std::size_t axes);
+/// A step that itself changes evenly from rank to rank: least squares within axes, in which misses beyond 2 deviations count less, and what is below the tip by
+/// `fading` a rank. None where it is no more than chance.
+[[nodiscard]] std::optional<OrderCourse> curvedCourse(std::span<const AxisLengths> axes, LengthsAlong along, double fading);
 
 /// Foretells the next segment of an axis from its first `below`.
 [[nodiscard]] double foretold(LengthRule rule, const AxisLengths& axis, std::size_t below, const OrderCourse& course);

@@ -39,6 +39,7 @@ struct Habit {
   int leaves = 0;
   int module = 0;              ///< segments after which an axis forks; 0: never
   std::function<double(int, int)> branching = [](int, int) { return 0.6; };
+  std::function<double(int)> byAge = [](int) { return 1.0; };   ///< a factor of all lengths made in a stage of the plant
   std::function<double(int)> rate = [](int) { return 1.0; };
   std::function<int(int)> most = [](int) { return 1000; };
   std::function<std::vector<Sprout>(Rng&)> sprouts = [](Rng& rng) { return std::vector<Sprout>{{rng.normal(50, 4), 0, 0.6}}; };
@@ -114,7 +115,7 @@ class Sequence {
   void grow(Apex& apex) {
     if (apex.rank >= habit_.most(apex.order)) apex.alive = false;
     if (!apex.alive || rng_.uniform() >= habit_.rate(apex.order)) return;
-    const double length = apex.length * std::exp(rng_.normal(0, habit_.noise));
+    const double ageless = apex.length * std::exp(rng_.normal(0, habit_.noise)), length = ageless * habit_.byAge(stage_);
     nodes_.push_back({nodes_[apex.node].at + apex.frame.direction.unit() * length, stage_});
     apex.node = nodes_.size() - 1;
     stems_[apex.stem].nodes.push_back(apex.node);
@@ -130,7 +131,7 @@ class Sequence {
     if (bears)
       for (const Sprout& sprout : habit_.sprouts(rng_)) {
         const StemFrame frame = childFrame(apex.frame, {radiansOf(sprout.lean_deg), radiansOf(apex.around + sprout.around_deg)}, ChildKind::Branch);
-        buds_.push_back({stem, apex.node, apex.order + 1, frame, (habit_.module > 0 ? apex.length : length) * sprout.ratio, stage_ + 1 + habit_.delay});
+        buds_.push_back({stem, apex.node, apex.order + 1, frame, (habit_.module > 0 ? apex.length : ageless) * sprout.ratio, stage_ + 1 + habit_.delay});
       }
     apex.around += habit_.divergence_deg;
     apex.length *= habit_.along * std::pow(habit_.change, rank);
