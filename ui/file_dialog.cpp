@@ -102,10 +102,9 @@ Taken fileDialog(const Panel& panel) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, panel.px(10));
   ImGui::Begin("##dialog", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
   ImGui::PopStyleVar(2);
-  const std::string viewKey = "view_" + dialog.view;
   ImGui::PushFont(font(Face::Heading));
   const char* title = dialog.kind == DialogKind::Open ? "open_project" : dialog.kind == DialogKind::SaveAs ? "save_as" : dialog.kind == DialogKind::ExportFile ? "export_as" : "photo_for";
-  ImGui::TextUnformatted(filled(panel.t(title), {{"view", panel.texts.has(viewKey) ? panel.t(viewKey) : dialog.view}}).c_str());
+  ImGui::TextUnformatted(filled(panel.t(title), {{"view", nameOfView(panel, dialog.view)}}).c_str());
   ImGui::PopFont();
   if (button(panel, "folder_up")) dialog.folder = dialog.folder.has_parent_path() ? dialog.folder.parent_path() : dialog.folder;
   ImGui::SameLine(0, panel.px(6));

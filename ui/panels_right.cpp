@@ -25,15 +25,14 @@ Taken nodeFacts(const Panel& panel, const skeleton3d::ClickedNode& node) {
       if (known.id == node.id) solved = &known;
   for (const document::ProjectView& view : panel.project.views) {
     const auto click = node.clicks.find(view.view.name);
-    const std::string key = "view_" + view.view.name;
-    const char* name = panel.texts.has(key) ? panel.t(key) : view.view.name.c_str();
+    const std::string name = nameOfView(panel, view.view.name);
     if (click == node.clicks.end()) {
-      fact(panel, name, panel.t("not_clicked"));
+      fact(panel, name.c_str(), panel.t("not_clicked"));
       continue;
     }
     std::string value = fixed(click->second.px.x, 1) + ", " + fixed(click->second.px.y, 1);
     if (solved != nullptr && solved->reprojection_px.contains(view.view.name)) value += "  (" + fixed(solved->reprojection_px.at(view.view.name), 2) + " px)";
-    fact(panel, name, value);
+    fact(panel, name.c_str(), value);
   }
   if (node.clicks.size() < 2) say(panel, NoticeKind::Warned, panel.t("needs_two"));
   if (solved != nullptr) {

@@ -168,9 +168,7 @@ void drawLoupe(const Pane& pane, PhotoPoint at) {
 void drawLabel(const Pane& pane, int number) {
   ImGui::PushFont(font(Face::Small));
   const float pad = pane.panel.px(7);
-  const std::string key = "view_" + pane.name();
-  const std::string name = pane.panel.texts.has(key) ? pane.panel.t(key) : pane.name();
-  const float width = chip(pane.list, {pane.area.x + pad, pane.area.y + pad}, std::to_string(number) + "  " + name, withAlpha(pane.panel.palette.panel, 225), pane.panel.palette.text, pad);
+  const float width = chip(pane.list, {pane.area.x + pad, pane.area.y + pad}, std::to_string(number) + "  " + nameOfView(pane.panel, pane.name()), withAlpha(pane.panel.palette.panel, 225), pane.panel.palette.text, pad);
   const bool known = cameraOf(pane.panel, pane.name()) != nullptr;
   if (!known)
     chip(pane.list, {pane.area.x + 1.6f * pad + width, pane.area.y + pad}, pane.panel.t("camera_unknown"), withAlpha(pane.panel.palette.panel, 225), pane.panel.palette.warning, pad);

@@ -26,6 +26,17 @@ void lookSliders(const Panel& panel) {
   for (const document::ProjectView& view : panel.project.views) panel.state.looks[view.view.name] = look;
 }
 
+/// What was estimated of the cameras, and what a person should look at.
+void camerasFound(const Panel& panel, const document::Measured& measured) {
+  constexpr std::size_t kMostNotes = 4;
+  for (const auto& report : measured.cameras) {
+    fact(panel, nameOfView(panel, report.view).c_str(), filled(panel.t("camera_estimated"), {{"px", fixed(report.typical_px, 2)}, {"deg", fixed(report.turned.degrees(), 1)}}));
+    for (const std::string& weak : report.weak) say(panel, NoticeKind::Warned, weak);
+  }
+  gap(panel, 4);
+  for (std::size_t i = 0; i < std::min(measured.notes.size(), kMostNotes); ++i) say(panel, NoticeKind::Warned, measured.notes[i]);
+}
+
 }  // namespace
 
 Taken photosPanel(const Panel& panel) {
@@ -37,9 +48,8 @@ Taken photosPanel(const Panel& panel) {
     ImGui::PushID(static_cast<int>(i));
     const document::ProjectView* view = panes[i] < 0 ? nullptr : &panel.project.views[static_cast<std::size_t>(panes[i])];
     const std::string name = view != nullptr ? view->view.name : kNames[i];
-    const std::string key = "view_" + name;
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(panel.texts.has(key) ? panel.t(key) : name.c_str());
+    ImGui::TextUnformatted(nameOfView(panel, name).c_str());
     ImGui::SameLine(panel.px(80));
     const std::string file = view == nullptr || view->photo.empty() ? panel.t("choose_photo") : std::filesystem::path(view->photo).filename().string();
     if (ImGui::Button((file + "##file").c_str(), {-1, 0})) {
@@ -74,18 +84,15 @@ Taken photosPanel(const Panel& panel) {
   for (const int place : panes) {
     if (place < 0) continue;
     const document::ProjectView& view = panel.project.views[static_cast<std::size_t>(place)];
-    const std::string key = "view_" + view.view.name;
     const std::string marks = std::string(view.origin_px ? panel.t("origin_set") : panel.t("origin_missing")) + (view.scale ? std::string(" · ") + panel.t("length_set") : "");
-    fact(panel, panel.texts.has(key) ? panel.t(key) : view.view.name.c_str(), view.view.camera.model == skeleton3d::CameraModel::Unknown ? marks : panel.t("camera_known"));
+    fact(panel, nameOfView(panel, view.view.name).c_str(), view.view.camera.model == skeleton3d::CameraModel::Unknown ? marks : panel.t("camera_known"));
   }
   if (panel.following.measured.trouble) {
     gap(panel, 4);
     say(panel, NoticeKind::Warned, panel.following.measured.trouble->message);
   }
   lookSliders(panel);
-  if (panel.following.measured.isCurrent())
-    for (const auto& report : panel.following.measured.good->cameras)
-      fact(panel, report.view.c_str(), filled(panel.t("camera_estimated"), {{"px", fixed(report.typical_px, 2)}, {"deg", fixed(report.turned.degrees(), 1)}}));
+  if (panel.following.measured.isCurrent()) camerasFound(panel, *panel.following.measured.good);
   for (const auto& trouble : panel.following.photos) say(panel, NoticeKind::Failed, trouble.error.message);
   return taken;
 }

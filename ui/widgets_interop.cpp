@@ -226,6 +226,11 @@ void dashed(ImDrawList& list, ImVec2 from, ImVec2 to, Colour colour, float width
   }
 }
 
+std::string nameOfView(const Panel& panel, const std::string& view) {
+  const std::string key = "view_" + view;
+  return panel.texts.has(key) ? panel.t(key) : view;
+}
+
 std::string countOf(const Panel& panel, std::size_t n, const char* key) { return filled(panel.t(key), {{"n", std::to_string(n)}}); }
 
 void leafPreview(const Panel& panel, const std::string& shape) {

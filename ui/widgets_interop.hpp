@@ -32,6 +32,8 @@ void quiet(const Panel& panel, std::string_view text);
 void say(const Panel& panel, NoticeKind kind, std::string_view text);
 void fact(const Panel& panel, const char* name, const std::string& value);
 void gap(const Panel& panel, float height);
+/// A view's name in the language of the window; a name of the user's own stays.
+std::string nameOfView(const Panel& panel, const std::string& view);
 /// "3 stems": a number in the words of `key`.
 std::string countOf(const Panel& panel, std::size_t n, const char* key);
 /// One of some names, or none; true when another was chosen.
