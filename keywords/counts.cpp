@@ -28,7 +28,7 @@ constexpr CountedWord countedWords[] = {
     {"loculed", "ovary", "locule", ""}, {"celled", "ovary", "locule", ""}, {"loculate", "ovary", "locule", ""}, {"valved", "fruit", "valve", ""},
     {"foliolate", "leaflet", "", ""}, {"foliate", "leaflet", "", ""},      {"petaled", "petal", "", ""},    {"petalled", "petal", "", ""},
     {"leaved", "leaf", "", ""},       {"rayed", "ray floret", "", ""},     {"paired", "", "", "pairs"},     {"jugate", "", "", "pairs"},
-    {"jug", "", "", "pairs"},         {"winged", "", "wing", ""},
+    {"jug", "", "", "pairs"},         {"winged", "", "wing", ""},       {"ribbed", "", "rib", ""},
 };
 
 }  // namespace

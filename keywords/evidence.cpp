@@ -27,7 +27,7 @@ constexpr double proseShare = 0.4;      // in one that is told in whole sentence
 constexpr double muchEvidence = 6;
 constexpr double bodyShare = 0.75;      // where only stems or branches are named, as rivers and pipes have them too
 constexpr double someStrange = 0.24;      // of the clauses are about what the vocabulary does not have
-constexpr double enoughAmongSome = 6;
+constexpr double enoughAmongSome = 7;
 constexpr double mostlyStrange = 0.45;
 constexpr double enoughAmongMost = 12;
 constexpr double fragmentShare = 0.99;  // nothing but vocabulary
@@ -68,6 +68,8 @@ void ParagraphReader::weighNoun(std::size_t i, const Concept& organ) {
   strongSeen_ = strongSeen_ || !everyday;
   organSeen_ = organSeen_ || !everyday || isPlainlyOfPlants(tokens_[i].text);
   bodySeen_ = bodySeen_ || isBody(organ);
+  // 植物, "shrub", "tree": but not the tree in 樹枝.
+  plantNamed_ = plantNamed_ || (organ.name == "plant" && !(everyday && isHan(i) && found_[i].end == i + 1));
   // Words for whole plants do not count: power plants and family trees abound.
   if (!organsWeighed_.insert(&organ).second || (everyday && organ.name == "plant")) return;
   evidence_ += everyday ? weakOrgan : strongOrgan;
@@ -248,8 +250,7 @@ double ParagraphReader::strangeShare(const std::vector<Stretch>& stretches) cons
 // Whether the clauses speak of other things than plants, and too little is said that only botany says.
 bool ParagraphReader::isAboutStrangeThings(const std::vector<Stretch>& stretches) const {
   const double strange = strangeShare(stretches);
-  const bool namesPlant = namedAt_.contains(&organNamed("plant"));
-  return (strange >= someStrange && evidence_ < enoughAmongSome && !namesPlant) || (strange >= mostlyStrange && evidence_ < enoughAmongMost);
+  return (strange >= someStrange && evidence_ < enoughAmongSome && !plantNamed_) || (strange >= mostlyStrange && evidence_ < enoughAmongMost);
 }
 
 bool ParagraphReader::isAboutAPlant() const {

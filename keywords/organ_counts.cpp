@@ -25,6 +25,13 @@ std::size_t ParagraphReader::readCountOfOrganBefore(std::size_t i, const NumberR
   // 花瓣白色，5枚: a number with its counter alone between commas.
   const bool alone = isHan(range.end) && counter.end > range.end && counter.unit.empty() && scope_.subjectInClause && before > 0 && isAny(before - 1, {",", "，"}) &&
                      (counter.end >= tokens_.size() || tokens_[counter.end].kind == TokenKind::Sign);
+  // "Leaves all basal, 6-12, reniform", "spikes 2-6 cm, 2-4 together".
+  const bool between = !isHan(i) && scope_.subjectInClause && before == i && i > 0 && is(i - 1, ",") && range.low < range.high && scope_.piece == nullptr && last_.kept && last_.end + 1 == i && range.end < tokens_.size() && is(range.end, ",");
+  const bool gathered = !isHan(i) && scope_.subjectInClause && is(range.end, "together") && isOneOf(noun.name, {"inflorescence", "flower", "fruit"});
+  if (between || gathered) {
+    addCount(i, range.end, noun.name, "", range, "");
+    return range.end;
+  }
   if (!isCountable(noun) || (!alone && before != scope_.organEnd && !orSolitary && !together && !forEach && !isBehindRows(before))) return 0;
   if (scope_.place != nullptr && !alone) return 0;
   const Measure measure = measureAt(range.end);

@@ -250,6 +250,7 @@ class ParagraphReader {
   double evidence_ = 0;
   bool bareTerms_ = false;  // "opposite", "simple, entire": nothing but a few terms
   bool pronounSeen_ = false;
+  bool plantNamed_ = false;  // by a word that is not part of another
   bool unsure_ = false;
   bool organSeen_ = false;   // an organ that only plants have
   bool bodySeen_ = false;    // a stem, a branch

@@ -63,7 +63,7 @@ bool ParagraphReader::isBranchNoun(std::size_t i) const {
 
 // "A tufted perennial reaching 30 cm", "Annuals, 10-60 cm", but not "leaves evergreen".
 bool ParagraphReader::isPlantNoun(std::size_t i) const {
-  if (!isAny(i, {"annual", "annuals", "biennial", "biennials", "perennial", "perennials", "evergreen", "evergreens"}) || !opensSentence(i)) return false;
+  if (!isAny(i, {"annual", "annuals", "biennial", "biennials", "perennial", "perennials", "evergreen", "evergreens", "succulent"}) || !opensSentence(i)) return false;
   const std::size_t next = i + 1;
   if (next >= tokens_.size()) return true;
   return tokens_[next].kind == TokenKind::Number || isAny(next, {",", ";", ".", "to", "reaching", "with", "up", "growing", "about", "ca", "from", "forming", "(", "usually"});
@@ -93,7 +93,7 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   const bool isMeasuredItself = found_[i].end < tokens_.size() && tokens_[found_[i].end].kind == TokenKind::Number;  // "in racemes 5-10 cm long"
   std::size_t before = i - 1;
   if (before > 0 && isAny(before, {"the", "its", "each", "a"})) --before;
-  while (before > 0 && (looksAdjectival(before) || isAny(before, {"lower", "upper", "young", "basal", "middle", "old", "lateral", "leaf", "short", "long", "spur", "juvenile", "fertile", "sterile", "flowering", "vegetative", "new",
+  while (before > 0 && (looksAdjectival(before) || (!isHan(i) && found_[before].conceptAs("which") != nullptr && nounAt(before) == nullptr) || isAny(before, {"lower", "upper", "young", "basal", "middle", "old", "lateral", "leaf", "short", "long", "spur", "juvenile", "fertile", "sterile", "flowering", "vegetative", "new",
                                       "very", "leafless", "slender", "stout", "current", "previous", "year", "second", "adult", "subtending", "ultimate", "leafy", "terminal", "main", "mature", "same", "opposite"})))
     --before;
   if (before > 0 && isAny(before, {"the", "its", "their"})) --before;  // "in the axils of the upper leaves"
@@ -111,12 +111,16 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
     if (isAny(i - back, {"在", "於", "于"})) return scope_.organInSentence;
   }
   if (isAny(before, {"without", "lacking", "no", "無", "无", "缺"}) && !is(i, "毛")) return true;
+  const bool noneAbove = isHan(i) && i > 2 && is(i - 2, "地") && is(i - 1, "上") && isAny(i - 3, {"無", "无", "缺"});  // 無地上莖
+  if (noneAbove) return true;
   if (before > 0 && is(before, "具") && isAny(before - 1, {"不", "未"})) return true;
   if (isAny(before, {"與", "与"}) && isAny(found_[i].end, {"呈", "成", "夾", "夹", "間", "间", "等", "對", "对", "同"})) return true;
   if (isAny(before, {"than", "to", "與", "与", "和", "短", "比", "較", "较", "似", "先", "exceeding", "於", "于", "near", "towards", "from", "among", "between", "above", "below", "on", "after", "before", "per", "until", "subtending", "opposite"}) && (!isMeasuredItself || isAny(before, {"from", "than", "exceeding"}))) {
     const bool afterTo = is(before, "to") && before > 0 && nounAt(i)->name == "plant" && found_[before - 1];  // "shrubs to small trees"
     return scope_.organInSentence && !afterTo && !(isAny(before, {"和", "與", "与"}) && before > 0 && (nounAt(before - 1) != nullptr || scope_.organEnd == before));
   }
+  const bool specifies = scope_.organInSentence && is(before, "of") && before > 0 && scope_.organEnd == before && scope_.organ != nullptr && scope_.organ->name != "inflorescence";  // "tepals of male flowers 4"
+  if (specifies) return true;
   if (!scope_.organInSentence || isMeasuredItself) return false;
   if (before > 0 && is(before, "of") && isAny(before - 1, {"pairs", "pair", "whorls", "clusters", "fascicles", "consisting", "composed"})) return false;
   return isAny(before, {"of", "in", "at", "by"}) && nounAt(i) != nullptr && nounAt(i)->name != "inflorescence";
@@ -341,7 +345,7 @@ void ParagraphReader::notePlace(std::size_t i, const Concept& place) {
     evidence_ += 1;
     organSeen_ = organSeen_ || isHan(i);
   }
-  if (scope_.organ == nullptr || (isOneOf(scope_.organ->name, {"plant", "petiole", "vein", "stipule"}) && !(place.name == "surface" && scope_.organEnd == i))) {
+  if (scope_.organ == nullptr || (isOneOf(scope_.organ->name, {"plant", "petiole", "vein", "stipule"}) && !(place.name == "surface" && scope_.organEnd == i) && !(scope_.organ->name == "stipule" && scope_.subjectInClause))) {
     scope_.organ = &organNamed("leaf");
     scope_.piece = nullptr;
     scope_.which.clear();

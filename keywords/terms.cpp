@@ -62,6 +62,8 @@ ParagraphReader::Ahead ParagraphReader::nounAhead(std::size_t end) const {
     } else if (hasTraitMeaning(at) || (found_[at] && found_[at].conceptAs("which") != nullptr)) {
       afterComma = afterComma && !hasTraitMeaning(at);
       at = found_[at].end;
+    } else if (tokens_[at].kind == TokenKind::Word && !found_[at] && nounAt(at + 1) != nullptr && nounAt(at + 1)->name == "plant") {  // "aquatic or marsh herb"
+      ++at;
     } else {
       return {};
     }
@@ -129,7 +131,8 @@ bool ParagraphReader::continuesCompound(std::size_t i, const Category& category)
   if (!last_.kept || last_.category != &category || result_.traits.empty()) return false;
   if (category.property == "colour") return last_.end == i || (last_.end + 1 == i && is(i - 1, "-"));
   if (!isOneOf(category.property, {"shape", "margin"})) return false;
-  if (isHan(i)) return category.property == "shape" && last_.end == i && isHan(i - 1) && !is(i - 1, "形");
+  const bool broadly = last_.end + 1 == i && i > 1 && isAny(i - 2, {"狀", "状"}) && isAny(i - 1, {"寬", "宽", "狹", "狭", "闊", "阔", "長", "长"});  // 匙狀寬卵形
+  if (isHan(i)) return category.property == "shape" && (broadly || (last_.end == i && isHan(i - 1) && !is(i - 1, "形")));
   return last_.end + 1 == i && is(i - 1, "-");
 }
 
@@ -192,7 +195,7 @@ void ParagraphReader::keepTerm(std::size_t i, const Meaning& meaning, const Subj
   const bool ofStemItself = organ != nullptr && category.property == "shape" && !attributive && now.linked && contains(category.notOrgans, organ->name);
   const bool takesDefault = organ == nullptr || category.ownOrgan || perennial || (!ofStemItself && (!accepts(category, organ) || (ofForm && isBody(*organ) && !fitsBody)));
   // Leaves stand opposite, where no sentence names what does.
-  const bool ofNoneNamed = organ != nullptr && category.property == "arrangement" && organ->name == "branch" && !scope_.organInSentence && !attributive;
+  const bool ofNoneNamed = organ != nullptr && category.property == "arrangement" && !scope_.organInSentence && !attributive && isOneOf(organ->name, {"branch", "rhizome", "stem", "root", "tuber", "bulb", "bark", "trunk"});
   // Stems in a tuft are the habit of a plant, leaves in a tuft an arrangement.
   const bool tuft = organ != nullptr && isOneOf(organ->name, {"stem", "plant"}) && category.property == "arrangement" && meaning.entry->name == "fascicled" && (now.linked || attributive);
   const bool placeHolds = place != nullptr && isOneOf(place->name, {"apex", "base"}) && category.property == "shape" && (placeNamed || !scope_.commaSincePlace);
@@ -286,7 +289,10 @@ bool ParagraphReader::saysNothingOf(const Meaning& meaning, std::size_t i, const
     return isOneOf(name, {"stem", "trunk", "leaf", "thorn", "branch", "seed", "bulb", "tuber", "root", "ovule", "pseudobulb", "tendril", "carpel", "stamen", "style", "rhizome", "corm", "plant"});
   if (property == "arrangement" && value == "opposite" && isAny(i, {"in", "paired", "成"})) return isOneOf(name, {"flower", "fruit", "inflorescence", "thorn", "stamen", "seed", "bract", "plant"});
   if (property == "arrangement" && value == "rosette" && isAny(i, {"basal", "radical"}) && found_[i].end == i + 1) return !isPredicateBasal(i);
-  if (property == "arrangement" && value == "whorled" && i > 0 && tokens_[i - 1].kind == TokenKind::Number) return isOneOf(name, {"tepal", "petal", "sepal", "stamen", "bract", "carpel"});
+  if (property == "arrangement" && value == "whorled" && i > 0 && numberAt(tokens_, i - 1)) return isOneOf(name, {"tepal", "petal", "sepal", "stamen", "bract", "carpel", "calyx", "corolla", "perianth"});
+  if (property == "life form" && i > 0 && isAny(i - 1, {"on", "of", "other", "under", "among", "host"})) return true;  // "on branches of other trees"
+  if (property == "margin" && value == "spinose" && place != nullptr && place->name == "apex") return true;  // 先端具刺狀尖頭
+  if (property == "branching" && name == "inflorescence" && isHan(i)) return isAny(i, {"單", "单"});
   if (property == "arrangement" && isHan(i) && isOneOf(value, {"fascicled", "scattered"}) && isAboutHairs(found_[i].end)) return true;
   if (property == "arrangement" && value == "spiral" && isAny(found_[i].end, {"twisted", "coiled", "contorted", "curved", "wound", "扭", "捲", "卷", "旋", "彎", "弯"})) return true;
   if (property == "arrangement" && value == "rosette" && is(i + 1, "出")) return numberAt(tokens_, found_[i].end).has_value() || isAny(found_[i].end, {"脈", "脉", "掌"});  // 基出3脈
@@ -333,7 +339,7 @@ void ParagraphReader::readTerm(std::size_t i) {
   const Concept* place = named != nullptr ? named : (attributive != nullptr ? nullptr : scope_.place);
   const Meaning* meaning = meaningFor(f, organ, place);
   if (meaning == nullptr || saysNothingOf(*meaning, i, organ, place)) return;
-  if (attributive == nullptr && (scope_.stranger || isAboutTheUnnamed(i))) return;
+  if (attributive == nullptr && (scope_.stranger || (!meaning->category->ownOrgan && isAboutTheUnnamed(i)))) return;
   if (isOfAnotherOrgan(*meaning->category, organ, attributive != nullptr || named != nullptr)) return;
   const std::optional<Meaning> deeper = deeperCut(i, *meaning);
   if (deeper) meaning = &*deeper;

@@ -23,7 +23,7 @@ TEST(NotPlants, YieldNoTraitInThreeScripts) {
     for (const Trait& trait : *traits) found += " [" + trait.organ + " " + trait.property + " " + trait.value + ": " + trait.text + "]";
     EXPECT_TRUE(found.empty()) << paragraph << "\n " << found;
   }
-  EXPECT_GE(paragraphs, 650u);
+  EXPECT_GE(paragraphs, 1000u);
 }
 
 }  // namespace
