@@ -2,6 +2,7 @@
 
 #include "base/angle.hpp"
 #include "base/text.hpp"
+#include "emit/flowering.hpp"
 #include "emit/inflorescence.hpp"
 #include "emit/text_grammar.hpp"
 #include "keywords/keywords.hpp"
@@ -168,62 +169,13 @@ class Designer {
   }
 
   void setFlowers() {
-    const keywords::FlowerPreset& flower = presets_.flower;
-    const auto colours = keywords::flowerColours(traits_);
-    const std::string model = keywords::flowerModelOf(traits_, presets_);
-    design_.flowers = !model.empty() || !colours.empty() || !flower.inflorescence.empty() || flower.diameter_m.has_value();
-    if (!design_.flowers) {
-      note("No flowers: the text says nothing of any.");
-      return;
-    }
-    InflorescencePlan& plan = design_.inflorescence;
-    plan.flowerModel = model.empty() ? "defaultflower" : model;
-    plan.colours = colours;
-    plan.type = inflorescenceNamed(flower.inflorescence).value_or(InflorescenceType::Solitary);
-    setFlowerSize(plan);
-    if (flower.flowersPerInflorescence) plan.flowers = std::clamp(static_cast<int>(std::lround(flower.flowersPerInflorescence->middle())), 1, 120);
-    plan.length = flower.inflorescenceLength_m ? std::clamp(flower.inflorescenceLength_m->middle(), 0.0, 0.6 * std::max(design_.height_m, design_.leaf_m * 2)) : 0;
-    const bool axillary = flower.position == "axillary" || says("", "position", "axillary");
-    const bool terminal = flower.position == "terminal" || says("", "position", "terminal");
-    design_.axillary = axillary;
-    design_.terminal = terminal || !axillary;
-    setFruit(plan);
-    note("Flowers " + cm(plan.flowerLength) + " long, model \"" + plan.flowerModel + "\", " + (flower.inflorescence.empty() ? std::string("alone: the text names no inflorescence") : flower.inflorescence + words("flower.inflorescence")) +
-         (design_.axillary ? (design_.terminal ? ", terminal and axillary." : ", axillary.") : ", terminal."));
-  }
-
-  /// Fruits follow the flowers where the text names them.
-  void setFruit(InflorescencePlan& plan) {
-    const keywords::FruitPreset& fruit = presets_.fruit;
-    plan.fruit.model = keywords::fruitModelOf(presets_);
-    if (plan.fruit.model.empty()) return;
-    const double widthToLength = organs::fruitModelNamed(plan.fruit.model).shape.widthToLength;
-    const double usual = std::clamp(0.8 * plan.flowerWidth, 0.003, 0.06);
-    const double length = fruit.length_m ? fruit.length_m->middle() : fruit.diameter_m ? fruit.diameter_m->middle() / std::max(widthToLength, 0.05) : usual;
-    plan.fruit.length = std::clamp(length, 0.0005, 0.8);
-    plan.fruit.width = plan.fruit.length * widthToLength;
-    const auto colours = keywords::fruitColours(traits_);
-    if (!colours.empty()) plan.fruit.colour = colours.front();
-    note("Fruits " + cm(plan.fruit.length) + " long, model \"" + plan.fruit.model + "\"" + words("fruit.type") + ", when the flowers are over.");
-  }
-
-  /// A flower's model is one unit long: tube and petal. Where the text says how long the tube and how wide the flower is, both hold.
-  void setFlowerSize(InflorescencePlan& plan) const {
-    const keywords::FlowerPreset& flower = presets_.flower;
-    if (flower.diameter_m && flower.tubeLength_m && flower.tubeLength_m->middle() > 0 && organs::flowerModelNamed(plan.flowerModel).shape.tube > 0.2) {
-      const double share = flower.tubeLength_m->middle() / (flower.tubeLength_m->middle() + 0.5 * flower.diameter_m->middle());
-      plan.flowerModel += ", tube " + std::to_string(static_cast<int>(std::lround(100 * std::clamp(share, 0.2, 0.9))));
-    }
-    const organs::FlowerShape shape = organs::flowerModelNamed(plan.flowerModel).shape;
-    const double petal = 1 - shape.tube;
-    const double reach = std::max(0.1, petal * std::sin(std::min(shape.spread_deg, 90.0) * kPi / 180) + shape.mouthRadius);
-    double length = 0.4 * design_.leaf_m;
-    if (flower.diameter_m) length = 0.5 * flower.diameter_m->middle() / reach;
-    else if (flower.tubeLength_m && shape.tube > 0.2) length = flower.tubeLength_m->middle() / shape.tube;
-    else if (flower.tubeLength_m && flower.tubeLength_m->middle() > 0) length = flower.tubeLength_m->middle();
-    else if (flower.petalLength_m) length = flower.petalLength_m->middle() / petal;
-    plan.flowerLength = std::clamp(length, 0.0005, 0.5);
-    plan.flowerWidth = 2 * reach * plan.flowerLength;
+    auto flowering = floweringOf(traits_, presets_, {design_.leaf_m, design_.height_m});
+    design_.flowers = flowering.has_value();
+    if (!flowering) return note("No flowers: the text says nothing of any.");
+    design_.axillary = flowering->axillary;
+    design_.terminal = flowering->terminal;
+    design_.inflorescence = std::move(flowering->plan);
+    for (const std::string& line : flowering->notes) note(line);
   }
 
   const Traits& traits_;

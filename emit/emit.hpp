@@ -12,4 +12,5 @@
 #include "emit/predictive.hpp"  // and one stage more
 #include "emit/structured.hpp"  // plants like it, in few rules
 #include "emit/described.hpp"   // from words alone
+#include "emit/flowering.hpp"   // and the flowers of a measured plant that is described
 #include "emit/dialects.hpp"    // cpfg, L-Py, MTG

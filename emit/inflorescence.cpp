@@ -242,7 +242,7 @@ class Writer {
 
   /// A fleshy spike of tiny flowers with a large bract around it.
   void spadix() {
-    const double length = lengthOr(0.12);
+    const double length = lengthOr(0.12 * plan_.metre);
     stalkLength_ = 1.6 * length;
     axisLength_ = length / (flowers_ / 5.0);
     axisIsThick_ = true;
@@ -274,7 +274,7 @@ class Writer {
   }
 
   // ---- stages
-  [[nodiscard]] double thickness() const { return std::clamp(0.045 * reach_, 0.0002, 0.003); }
+  [[nodiscard]] double thickness() const { return std::clamp(0.045 * reach_, 0.0002 * plan_.metre, 0.003 * plan_.metre); }
 
   void writeStages() {
     const double thick = thickness();
@@ -284,7 +284,7 @@ class Writer {
       return all.find(word + ")") != std::string::npos || all.find(word + ",") != std::string::npos;
     };
     if (uses(stalk_)) out_.stemStages += stemStage(stalk_, "", num(stalkLength_), 1.5 * thick, 3, "");
-    if (uses(axis_)) out_.stemStages += stemStage(axis_, axisTakesLength_ ? "(length)" : "", axisTakesLength_ ? "length" : num(axisLength_), axisIsThick_ ? 0.055 * lengthOr(0.12) : 1.2 * thick, 3,
+    if (uses(axis_)) out_.stemStages += stemStage(axis_, axisTakesLength_ ? "(length)" : "", axisTakesLength_ ? "length" : num(axisLength_), axisIsThick_ ? 0.055 * lengthOr(0.12 * plan_.metre) : 1.2 * thick, 3,
                                  axisHangs_ ? "GravityTropism = 0.9; " : "");
     if (uses(pedicel_)) out_.stemStages += stemStage(pedicel_, "(length)", "length", 0.8 * thick, 3, "");
     if (uses(rod_)) out_.stemStages += stemStage(rod_, "", num(sideLength_ > 0 ? sideLength_ : axisLength_), thick, 3, "");
@@ -292,7 +292,7 @@ class Writer {
       out_.leafStages += leafStage(stalk_, "ovate, apex cuspidate, base rounded, width 80, veins arcuate", spatheLength_, 3, glm::dvec3{0.78, 0.86, 0.55});
     for (std::size_t ring = 0; ring < rings(); ++ring)
       out_.flowerStages += flowerStage(static_cast<int>(ring) + 1, plan_.flowerModel, plan_.flowerLength, 3, ring < plan_.colours.size() ? std::optional(plan_.colours[ring]) : std::nullopt,
-                                       plan_.fruit.model.empty() ? "" : "FallAge = " + std::to_string(plan_.fruit.bloom + 1) + "; ");
+                                       plan_.fruit.model.empty() ? "" : "FallAge = " + num((plan_.fruit.bloom + 1) * plan_.stepTime) + "; ");
   }
 
   const InflorescencePlan& plan_;

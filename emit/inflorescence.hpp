@@ -41,6 +41,8 @@ struct InflorescencePlan {
   double flowerWidth = 0.02;              ///< across
   std::string flowerModel = "five-petalled";
   FruitPlan fruit = {};
+  double stepTime = 1;                    ///< of the grammar it is for: the time of one derivation step
+  double metre = 1;                       ///< and the length of a metre there
   std::vector<glm::dvec3> colours;        ///< sRGB; heads and umbels carry several from the outside inwards, others the first
 };
 
