@@ -24,8 +24,16 @@ double logWrong(const View& view) {
   return std::log(kWrong / (kPi * away * away));
 }
 
+bool isEnd(const StemCourse& course, NodeId node) {
+  const auto around = course.around.find(node);
+  return around == course.around.end() || around->second.front().before.empty() || around->second.front().after.empty();
+}
+
+/// Where a stem ends, in the ground or at a tip, little of it is seen about the place, and any place further in is seen better.
 double seenAt(const Grounds& grounds, NodeId node, const glm::dvec3& at) {
-  return grounds.evidence == nullptr ? 0 : evidenceAt(*grounds.evidence, grounds.views, at, directionAt(grounds.course, node, at));
+  constexpr double kAtEnds = 0.3;
+  if (grounds.evidence == nullptr) return 0;
+  return (isEnd(grounds.course, node) ? kAtEnds : 1) * evidenceAt(*grounds.evidence, grounds.views, at, directionAt(grounds.course, node, at));
 }
 
 /// Clicks of two views or more that are all right.

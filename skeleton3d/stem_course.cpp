@@ -13,7 +13,7 @@ namespace axil::skeleton3d::detail {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kOnward = 0.6;  // of a step: how far from where its stem would go on an end may be
+constexpr double kOnward = 0.8;  // of a step: how far from where its stem would go on an end may be
 
 /// The smooth curve from `before` to `after` that goes on as the stem does on both sides, as a few straight pieces.
 std::vector<glm::dvec3> curveBetween(const StemCourse& course, const Neighbours& own) {
@@ -43,31 +43,39 @@ double distanceFrom(const std::vector<glm::dvec3>& curve, const glm::dvec3& at) 
 
 bool isInner(const Neighbours& own) { return !own.before.empty() && !own.after.empty(); }
 
+/// The last segment before an end, or the plant's usual one where that is longer: a trunk's are longer than its twigs'.
+double stepBefore(const StemCourse& course, const std::vector<NodeId>& inwards) {
+  if (inwards.size() < 2) return course.step;
+  return std::max(course.step, glm::length(course.places.at(inwards[0]) - course.places.at(inwards[1])));
+}
+
 /// An end is expected a step further along, as far as its stem says which way it runs.
 glm::dvec3 onwardFrom(const StemCourse& course, const std::vector<NodeId>& inwards) {
   const glm::dvec3 last = course.places.at(inwards[0]);
   if (inwards.size() < 2) return last;
   const glm::dvec3 run = last - course.places.at(inwards[1]);
   const double length = glm::length(run);
-  return length > 0 ? last + course.step / length * run : last;
+  return length > 0 ? last + stepBefore(course, inwards) / length * run : last;
 }
+
+const std::vector<NodeId>& inwardsOf(const Neighbours& end) { return end.before.empty() ? end.after : end.before; }
 
 double scaleBetween(const StemCourse& course, const Neighbours& own) {
   return std::hypot(course.bend * glm::length(course.places.at(own.after[0]) - course.places.at(own.before[0])), course.noise);
 }
 
-double scaleOnward(const StemCourse& course) { return std::hypot(kOnward * course.step, course.noise); }
+double scaleOnward(const StemCourse& course, const Neighbours& end) { return std::hypot(kOnward * stepBefore(course, inwardsOf(end)), course.noise); }
 
 /// Squared distance from what one stem lets expect, in its own scale.
 double oddness(const StemCourse& course, const Neighbours& own, const glm::dvec3& at) {
   const double off = isInner(own) ? distanceFrom(curveBetween(course, own), at) / scaleBetween(course, own)
-                                  : glm::length(at - onwardFrom(course, own.before.empty() ? own.after : own.before)) / scaleOnward(course);
+                                  : glm::length(at - onwardFrom(course, inwardsOf(own))) / scaleOnward(course, own);
   return off * off;
 }
 
 /// What makes the density of one stem's expectation one in all space: across a curve and along it, or about a place.
 double normaliser(const StemCourse& course, const Neighbours& own) {
-  if (!isInner(own)) return -std::log(kPi * kPi * std::pow(scaleOnward(course), 3));
+  if (!isInner(own)) return -std::log(kPi * kPi * std::pow(scaleOnward(course, own), 3));
   const double scale = scaleBetween(course, own), length = glm::length(course.places.at(own.after[0]) - course.places.at(own.before[0]));
   return -std::log(kPi * scale * scale * (length + 2 * scale));
 }
@@ -152,7 +160,7 @@ std::optional<ExpectedPlace> expectedPlace(const StemCourse& course, NodeId node
   const auto around = course.around.find(node);
   if (around == course.around.end()) return std::nullopt;
   const Neighbours& own = around->second.front();
-  if (!isInner(own)) return ExpectedPlace{onwardFrom(course, own.before.empty() ? own.after : own.before), 4 * scaleOnward(course)};
+  if (!isInner(own)) return ExpectedPlace{onwardFrom(course, inwardsOf(own)), 4 * scaleOnward(course, own)};
   const glm::dvec3 a = course.places.at(own.before[0]), b = course.places.at(own.after[0]);
   return ExpectedPlace{0.5 * (a + b), 0.6 * glm::length(b - a) + 4 * scaleBetween(course, own)};
 }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <cmath>
 
 namespace axil::skeleton3d {
@@ -109,6 +110,24 @@ TEST(Photographed, AWrongClickInKnownCamerasIsNamedAndLeftOut) {
     if (node.id != wrong.id) continue;
     EXPECT_LT(glm::length(node.at.at - truth), 0.005 * made.plant.height_m);
   }
+}
+
+TEST(Photographed, TwoWrongClicksThatAgreeAreToldByTheStemAndThePhotosAndTheNodeKeepsAPlace) {
+  AXIL_SKIP_WITHOUT_SHARED("data/plants/cases");
+  std::printf("seed 14\n");
+  auto made = photographsOf(test::plantCaseFolders()[0], "plain", {.cameras = "persp", .noise_px = 1, .seed = 14, .every = 6});
+  ClickedNode& wrong = made.plant.nodes[5];
+  wrong.clicks.at("front").px += glm::dvec2{50, -45};
+  wrong.clicks.at("right").px += glm::dvec2{-40, -45};
+  const auto found = measurePhotographed(made.plant.views, {}, made.photos, made.plant.nodes, {.stems = made.plant.stems});
+  ASSERT_TRUE(found) << found.error().message;
+  std::set<std::string> named;
+  for (const SuspectClick& suspect : found->cameras.suspects)
+    if (suspect.node == wrong.id && suspect.chance > 0.5) named.insert(suspect.view);
+  EXPECT_EQ(named, (std::set<std::string>{"front", "right"}));
+  const auto node = std::find_if(found->snapping.nodes.begin(), found->snapping.nodes.end(), [&](const SnappedNode& n) { return n.id == wrong.id; });
+  ASSERT_NE(node, found->snapping.nodes.end());
+  EXPECT_LT(glm::length(node->at.at - made.plant.truth[5].at), 0.02 * made.plant.height_m);
 }
 
 TEST(Photographed, AStemWhoseEndOnViewShowsNothingKeepsItsWidthAndPlace) {

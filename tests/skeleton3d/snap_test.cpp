@@ -107,6 +107,7 @@ TEST(Snap, ANodeAtAForkLiesOnItsOwnStemsLine) {
 
 struct Scores {
   std::vector<double> off, plain, radius;
+  std::vector<double> sigmas;  ///< how many standard deviations each coordinate is off
 };
 
 /// Distances of the nodes from where the true nodes' stems run, in percent of the height; radii where a stem is 6 px wide.
@@ -136,6 +137,7 @@ Scores scoresOf(const char* name, const char* cameras, const char* photos) {
   };
   for (const SnappedNode& node : snapped->nodes) {
     scores.off.push_back(offLine(node.at.at));
+    for (int k = 0; k < 3; ++k) scores.sigmas.push_back(std::abs(node.at.at[k] - plant.truth[index[node.id]].at[k]) / std::sqrt(node.covariance[k][k]));
     const double truth = *plant.nodes[index[node.id]].radius;
     double widest_px = 0;
     for (const View& view : plant.views) widest_px = std::max(widest_px, 2 * glm::length(project(view.camera, {node.at.at + glm::dvec3{truth, 0, 0}}).px - project(view.camera, node.at).px));
@@ -153,6 +155,18 @@ TEST(Snap, SnappedClicksPutNodesOnTheTrueCentreLines) {
   EXPECT_LE(percentile(scores.off, 0.5), 0.08);
   EXPECT_LE(percentile(scores.off, 0.95), 0.25);
   EXPECT_LE(percentile(scores.radius, 0.5), 10);
+}
+
+double shareWithin(const std::vector<double>& sigmas, double most) {
+  return static_cast<double>(std::count_if(sigmas.begin(), sigmas.end(), [&](double s) { return s <= most; })) / static_cast<double>(sigmas.size());
+}
+
+TEST(Snap, IntervalsOfNodesSnappedToRealRidgesAreTrue) {
+  AXIL_SKIP_WITHOUT_SHARED("data/plants/cases/p02_quaking_aspen");
+  const Scores scores = scoresOf("p02_quaking_aspen", "persp", "persp_plain");
+  std::printf("68 %% intervals hold %.1f %%, 95 %% intervals %.1f %% of %zu coordinates\n", 100 * shareWithin(scores.sigmas, 1), 100 * shareWithin(scores.sigmas, 1.96), scores.sigmas.size());
+  EXPECT_NEAR(shareWithin(scores.sigmas, 1), 0.68, 0.05);
+  EXPECT_NEAR(shareWithin(scores.sigmas, 1.96), 0.95, 0.05);
 }
 
 TEST(Snap, SnappedClicksStayExactBeforeAClutteredBackground) {
