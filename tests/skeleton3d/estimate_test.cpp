@@ -275,12 +275,18 @@ TEST(EstimateCameras, KnownCamerasComeBackAsTheyAre) {
   EXPECT_TRUE(cameras->reports.empty());
 }
 
-TEST(WithoutSuspects, DropsTheWorstAndLeavesTwoClicks) {
+TEST(WithoutSuspects, DropsWhatIsLikelyWrongAndMovesItWhereTheNodeIsRatherMeant) {
   const Studio s = studio(4);
-  const std::vector<SuspectClick> suspects{{NodeId(7), "front", 40}, {NodeId(7), "right", 50}};
+  const PhotoPoint rather{{10, 20}};
+  const std::vector<SuspectClick> suspects{{NodeId(5), "front", 40, 0.3},          {NodeId(5), "right", 50, 0.4}, {NodeId(7), "front", 40, 0.9, rather},
+                                           {NodeId(7), "right", 50, 0.95, rather}, {NodeId(6), "front", 40, 0.9}, {NodeId(6), "right", 50, 0.9}};
   const auto kept = withoutSuspects(s.nodes, suspects);
-  EXPECT_EQ(kept[7].clicks.size(), 2u);
-  EXPECT_FALSE(kept[7].clicks.contains("right"));
+  EXPECT_EQ(kept[5].clicks.size(), 2u) << "none is likely wrong, but one of them is";
+  EXPECT_FALSE(kept[5].clicks.contains("right"));
+  EXPECT_EQ(kept[6].clicks.size(), 1u) << "two are likely wrong, and nothing says where they were meant";
+  ASSERT_EQ(kept[7].clicks.size(), 3u);
+  EXPECT_EQ(kept[7].clicks.at("front"), rather);
+  EXPECT_EQ(kept[7].clicks.at("top"), s.nodes[7].clicks.at("top"));
   EXPECT_EQ(kept[8].clicks, s.nodes[8].clicks);
 }
 
