@@ -195,6 +195,12 @@ double ParagraphReader::knownShare(const std::vector<Stretch>& stretches) const 
         ++i;
         continue;
       }
+      // "leaves opposite, glabriuscule, ...": a word alone between commas is a term that the vocabulary lacks.
+      const bool lone = isLatin(tokens_[i]) && !found_[i] && i > 0 && tokens_[i - 1].kind == TokenKind::Sign && i + 1 < tokens_.size() && tokens_[i + 1].kind == TokenKind::Sign;
+      if (lone && looksLikeATerm(tokens_[i].text)) {
+        ++i;
+        continue;
+      }
       const Concept* stop = found_[i].conceptAs("stop");
       const bool phrase = found_[i] && found_[i].conceptAs("foreign") == nullptr && (stop == nullptr || stop->name == "place");
       const std::size_t end = found_[i] ? found_[i].end : i + 1;
@@ -221,7 +227,8 @@ bool ParagraphReader::beginsStrangely(std::size_t first, std::size_t end) const 
   if (at == end) return false;
   const bool other = !found_[at] || found_[at].conceptAs("foreign") != nullptr;
   const std::string_view word = tokens_[at].text;
-  if (!isHan(at)) return other && word.size() > 2 && !looksLikeATerm(word) && !word.ends_with("ing") && !word.ends_with("er") && !isOneOf(word, {"growth", "dense", "loose", "stout"});
+  const bool lone = at + 1 == end;  // "leaves opposite, glabriuscule": a term that is not known
+  if (!isHan(at)) return other && !lone && word.size() > 2 && !looksLikeATerm(word) && !word.ends_with("ing") && !word.ends_with("er") && !isOneOf(word, {"growth", "dense", "loose", "stout"});
   const bool alone = at + 1 == end || tokens_[at + 1].kind != TokenKind::Han;
   return other && !alone && !found_[at + 1];
 }
