@@ -45,9 +45,16 @@ TEST(GrammarLinks, EveryStageAndRuleOfAStemSpeaksOfItsSegment) {
   EXPECT_EQ(segments[6], 1);
 }
 
+simeco::OrganStyle styleOf(simeco::OrganKind kind, int stage) {
+  simeco::OrganStyle style;
+  style.kind = kind;
+  style.stage = stage;
+  return style;
+}
+
 TEST(OrganPick, TheOneInFrontOfThoseUnderTheMouseIsChosen) {
   simeco::Plant plant;
-  plant.styles = {{.kind = simeco::OrganKind::Stem, .stage = stageOfSegment(4)}, {.kind = simeco::OrganKind::Leaf, .stage = 1}};
+  plant.styles = {styleOf(simeco::OrganKind::Stem, stageOfSegment(4)), styleOf(simeco::OrganKind::Leaf, 1)};
   const auto organ = [&](simeco::OrganKind kind, PlantPoint base, glm::dvec3 direction, double length, double radius) {
     simeco::Organ made;
     made.kind = kind;
@@ -69,7 +76,7 @@ TEST(OrganPick, TheOneInFrontOfThoseUnderTheMouseIsChosen) {
   simeco::Organ stalk = plant.organs[1];
   stalk.kind = simeco::OrganKind::Stem;
   stalk.style = 2;
-  plant.styles.push_back({.kind = simeco::OrganKind::Stem, .stage = stageOfSegment(0) - 1});
+  plant.styles.push_back(styleOf(simeco::OrganKind::Stem, stageOfSegment(0) - 1));
   plant.organs.insert(plant.organs.begin() + 1, stalk);
   plant.organs[2].parent = simeco::OrganId(1);
   EXPECT_EQ(segmentOfOrgan(plant, simeco::OrganId(2)), 4) << "through its stalk";
