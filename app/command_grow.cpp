@@ -6,7 +6,7 @@
 #include "app/project_options.hpp"
 #include "app/terminal.hpp"
 #include "base/files.hpp"
-#include "document/build.hpp"
+#include "base/units.hpp"
 #include "document/skeleton_file.hpp"
 #include "render/render.hpp"
 #include "simeco/growth_attributes.hpp"
@@ -144,7 +144,7 @@ Result<void> writePlant(const Plant& plant, const GrowCommand& command, const re
   if (!mesh) return mesh.failure();
   for (const std::string& note : mesh->notes) std::fprintf(stderr, "axil: note: %s\n", note.c_str());
   if (ending == ".png") return written(pictureBytes(*mesh, picture), command.out);
-  if (ending == ".glb") return render::writeGlb(*mesh, command.out, {.metresPerUnit = document::metresPer(command.unit).value_or(1)});
+  if (ending == ".glb") return render::writeGlb(*mesh, command.out, {.metresPerUnit = metresPer(command.unit).value_or(1)});
   if (ending == ".ply") return written(render::plyBytes(*mesh), command.out);
   return render::writeObj(*mesh, command.out);
 }

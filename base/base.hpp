@@ -14,4 +14,5 @@
 #include "base/rng.hpp"         // chance as an argument
 #include "base/progress.hpp"    // how far, and stop
 #include "base/overloaded.hpp"  // visiting a variant
+#include "base/units.hpp"       // units of length
 #include "base/large_array.hpp"  // memory for large arrays

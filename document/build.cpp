@@ -1,6 +1,7 @@
 #include "document/build.hpp"
 
 #include "base/files.hpp"
+#include "base/units.hpp"
 #include "document/json_lines.hpp"
 #include "document/plots.hpp"
 #include "document/skeleton_file.hpp"
@@ -170,7 +171,7 @@ Result<void> draw(Output& output, const Grown& grown, const BuildOptions& option
 
 Result<void> writeMesh(Output& output, const render::PlantMesh& mesh, const std::string& unit) {
   const auto metres = metresPer(unit);
-  if (!metres) output.notes.push_back("the unit '" + unit + "' is none of m, dm, cm and mm; plant.glb takes it for a metre");
+  if (!metres) output.notes.push_back("the unit '" + unit + "' is none of m, dm, cm, mm, in and ft; plant.glb takes it for a metre");
   const auto glb = render::glbBytes(mesh, {.metresPerUnit = metres.value_or(1)});
   if (!glb) return glb.failure();
   return output.write("plant.glb", *glb);
@@ -210,12 +211,6 @@ BuildReport reportOn(const Project& project, const Skeleton& skeleton, const qua
 }
 
 }  // namespace
-
-std::optional<double> metresPer(const std::string& unit) {
-  static const std::map<std::string, double> metres = {{"m", 1.0}, {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}};
-  const auto known = metres.find(unit);
-  return known == metres.end() ? std::nullopt : std::optional(known->second);
-}
 
 Result<BuildReport> build(const OpenProject& open, const fs::path& folder, const BuildOptions& options) {
   const auto clicks = measured(open, options.chain);

@@ -10,9 +10,6 @@
 
 namespace axil::document {
 
-/// Metres in a unit of length: m, dm, cm or mm; nothing for any other word.
-[[nodiscard]] std::optional<double> metresPer(const std::string& unit);
-
 enum class Video { None, Mp4 };
 
 struct BuildOptions {

@@ -1,6 +1,6 @@
 #include "document/chain.hpp"
 
-#include "document/build.hpp"
+#include "base/units.hpp"
 #include "document/traits.hpp"
 #include "keywords/models.hpp"
 

@@ -1,6 +1,7 @@
 #include "quantify/contradictions.hpp"
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "keywords/presets.hpp"
 #include "quantify/phyllotaxis.hpp"
 #include "quantify/statistics.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace axil::quantify {
 
@@ -102,12 +102,6 @@ void compareRange(const Traits& statements, const std::vector<double>& values, d
   found.push_back(against(statements.front(), what + " " + rounded(spread.mean / perUnit) + " ± " + rounded(spread.deviation / perUnit) + " " + unit));
 }
 
-double metresPer(const std::string& unit) {
-  static const std::map<std::string, double> units{{"m", 1}, {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
-  const auto found = units.find(unit);
-  return found == units.end() ? 0 : found->second;
-}
-
 std::vector<const LeafMeasure*> leavesOf(const Measurements& measurements) {
   std::vector<const LeafMeasure*> leaves;
   for (const LeafMeasure& leaf : measurements.rootLeaves) leaves.push_back(&leaf);
@@ -118,12 +112,13 @@ std::vector<const LeafMeasure*> leavesOf(const Measurements& measurements) {
 
 void compareLengths(const Traits& said, const Measurements& measurements, std::vector<PhotoContradiction>& found) {
   const Traits statements = statementsOf(said, "leaf", "length");
-  const double ours = metresPer(measurements.unit);
-  if (statements.empty() || ours == 0 || metresPer(statements.front().unit) == 0) return;
+  if (statements.empty()) return;
+  const auto ours = metresPer(measurements.unit), theirs = metresPer(statements.front().unit);
+  if (!ours || !theirs) return;
   std::vector<double> lengths;
   for (const LeafMeasure* leaf : leavesOf(measurements))
     if (leaf->length > 0) lengths.push_back(leaf->length);
-  compareRange(statements, lengths, kLengthSlack, 0, metresPer(statements.front().unit) / ours, "measured leaf length", statements.front().unit, found);
+  compareRange(statements, lengths, kLengthSlack, 0, *theirs / *ours, "measured leaf length", statements.front().unit, found);
 }
 
 void compareAngles(const Traits& said, const Measurements& measurements, std::vector<PhotoContradiction>& found) {

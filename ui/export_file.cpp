@@ -1,7 +1,7 @@
 #include "ui/export_file.hpp"
 
 #include "base/files.hpp"
-#include "document/build.hpp"
+#include "base/units.hpp"
 #include "emit/dialects.hpp"
 #include "render/animation.hpp"
 #include "render/mesh_files.hpp"
@@ -44,7 +44,7 @@ Result<void> writeVideo(const FileQuestion& question) {
 
 Result<void> writeGlb(const FileQuestion& question) {
   const auto mesh = meshNow(question);
-  return mesh ? render::writeGlb(*mesh, question.file, {.metresPerUnit = document::metresPer(question.unit).value_or(1)}) : mesh.failure();
+  return mesh ? render::writeGlb(*mesh, question.file, {.metresPerUnit = metresPer(question.unit).value_or(1)}) : mesh.failure();
 }
 
 Result<void> writePly(const FileQuestion& question) {
