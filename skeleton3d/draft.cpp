@@ -67,7 +67,8 @@ Result<Ways> waysFrom(const Cubes& cubes, std::size_t start, const Watch& watch)
   cost[start] = 0;
   queue.push({0, start});
   while (!queue.empty()) {
-    const auto [spent, i] = queue.top();
+    const double spent = queue.top().first;
+    const std::size_t i = queue.top().second;
     queue.pop();
     if (done[i]) continue;
     done[i] = true;
