@@ -99,22 +99,30 @@ std::size_t nodesShared(std::span<const skeleton3d::ClickedNode> nodes, const st
   return static_cast<std::size_t>(std::count_if(nodes.begin(), nodes.end(), [&](const auto& node) { return node.clicks.size() > 1 && node.clicks.contains(view); }));
 }
 
+/// Whether the only known length or the only origin is in this view: then it is better asked for more clicks than left out.
+bool holdsTheOnlyMark(const Project& project, const std::string& name) {
+  const auto onlyIn = [&](auto has) {
+    return std::count_if(project.views.begin(), project.views.end(), has) == 1 && std::find_if(project.views.begin(), project.views.end(), has)->view.name == name;
+  };
+  return onlyIn([](const ProjectView& view) { return view.scale.has_value(); }) || onlyIn([](const ProjectView& view) { return view.origin_px.has_value(); });
+}
+
 /// The view that is furthest from being estimated; a click that stands in it alone keeps it, so that its node is asked for elsewhere.
-const skeleton3d::View* unusableView(const Measured& clicks) {
+const skeleton3d::View* unusableView(const Measured& clicks, const Project& project) {
   const skeleton3d::View* worst = nullptr;
   std::size_t fewest = skeleton3d::kFewestSharedNodes;
   for (const skeleton3d::View& view : clicks.views) {
     const std::size_t shared = nodesShared(clicks.nodes, view.name);
     const bool alone = std::any_of(clicks.nodes.begin(), clicks.nodes.end(), [&](const auto& node) { return node.clicks.size() == 1 && node.clicks.contains(view.name); });
-    if (view.camera.model == skeleton3d::CameraModel::Unknown && shared < fewest && !alone) worst = &view, fewest = shared;
+    if (view.camera.model == skeleton3d::CameraModel::Unknown && shared < fewest && !alone && !holdsTheOnlyMark(project, view.name)) worst = &view, fewest = shared;
   }
   return worst;
 }
 
 /// Two photos with enough clicks are a plant already; the third joins in when it has enough too.
-Measured withoutUnusableViews(Measured clicks) {
+Measured withoutUnusableViews(Measured clicks, const Project& project) {
   while (clicks.views.size() > 2) {
-    const skeleton3d::View* view = unusableView(clicks);
+    const skeleton3d::View* view = unusableView(clicks, project);
     if (view == nullptr) break;
     clicks.notes.push_back("view '" + view->name + "' is left out: it shares " + std::to_string(nodesShared(clicks.nodes, view->name)) + " clicked nodes with other views; click at least " +
                            std::to_string(skeleton3d::kFewestSharedNodes));
@@ -220,7 +228,7 @@ Result<Measured> measured(const OpenProject& open, const ChainOptions& options) 
   std::map<std::string, double> focals;
   auto views = readViews(open, options, focals);
   if (!views) return views.failure();
-  Measured result = withoutUnusableViews({std::move(*views), nodesOf(open.project), {}, {}});
+  Measured result = withoutUnusableViews({std::move(*views), nodesOf(open.project), {}, {}}, open.project);
   const bool snap = options.snap == Snap::On;
   options.watch.report(snap ? "looking for the stems in the photos" : anyUnknown(result.views) ? "estimating the cameras" : "judging the clicks", 0.2);
   const auto done = snap ? measureSnapped(open, focals, result) : measureClicks(open, focals, result);

@@ -50,6 +50,18 @@ TEST(Chain, APhotoWithoutEnoughClicksIsLeftOutAndNamed) {
   EXPECT_TRUE(skeletonOf(photographed({"front", "right"}), {}));
 }
 
+TEST(Chain, APhotoWithTheOnlyKnownLengthIsAskedForClicks) {
+  OpenProject open = photographed({"front", "right"});
+  for (std::size_t i = 0; i < 3; ++i) {
+    ProjectView view = open.project.views[i];
+    view.scale = view.view.name == "top" ? std::optional(skeleton3d::KnownLength{{{500, 500}}, {{700, 500}}, 0.5}) : std::nullopt;
+    open.project.views.set(i, view);
+  }
+  const auto measured = document::measured(open, {});
+  ASSERT_FALSE(measured);
+  EXPECT_NE(measured.error().message.find("'top'"), std::string::npos) << measured.error().message;
+}
+
 TEST(Chain, AllPhotosCountOnceTheyHaveEnoughClicks) {
   const auto measured = document::measured(photographed({"front", "right", "top"}), {});
   ASSERT_TRUE(measured) << measured.error().message;
