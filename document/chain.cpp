@@ -124,7 +124,7 @@ Measured withoutUnusableViews(Measured clicks, const Project& project) {
   while (clicks.views.size() > 2) {
     const skeleton3d::View* view = unusableView(clicks, project);
     if (view == nullptr) break;
-    clicks.notes.push_back("view '" + view->name + "' is left out: it shares " + std::to_string(nodesShared(clicks.nodes, view->name)) + " clicked nodes with other views; click at least " +
+    clicks.notes.push_back("view '" + view->name + "' is left out: of the nodes clicked there " + std::to_string(nodesShared(clicks.nodes, view->name)) + " are clicked in other views too; click at least " +
                            std::to_string(skeleton3d::kFewestSharedNodes));
     for (skeleton3d::ClickedNode& node : clicks.nodes) node.clicks.erase(view->name);
     clicks.views.erase(clicks.views.begin() + (view - clicks.views.data()));

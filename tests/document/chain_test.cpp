@@ -46,7 +46,7 @@ TEST(Chain, APhotoWithoutEnoughClicksIsLeftOutAndNamed) {
   ASSERT_TRUE(measured) << measured.error().message;
   ASSERT_EQ(measured->views.size(), 2u);
   ASSERT_FALSE(measured->notes.empty());
-  EXPECT_EQ(measured->notes.front(), "view 'top' is left out: it shares 0 clicked nodes with other views; click at least 4");
+  EXPECT_EQ(measured->notes.front(), "view 'top' is left out: of the nodes clicked there 0 are clicked in other views too; click at least 4");
   EXPECT_TRUE(skeletonOf(photographed({"front", "right"}), {}));
 }
 
