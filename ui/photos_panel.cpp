@@ -1,5 +1,6 @@
 #include "base/text.hpp"
 #include "document/lookup.hpp"
+#include "quantify/estimate.hpp"
 #include "ui/widgets_interop.hpp"
 
 #include <algorithm>
@@ -26,9 +27,30 @@ void lookSliders(const Panel& panel) {
   for (const document::ProjectView& view : panel.project.views) panel.state.looks[view.view.name] = look;
 }
 
-/// What was estimated of the cameras, and what a person should look at.
+/// How far clicks in the view typically are from where their nodes project to, px; nothing before there is a skeleton.
+std::optional<double> typicalMiss(const Panel& panel, const std::string& view) {
+  std::vector<double> misses;
+  if (panel.following.skeleton.good)
+    for (const skeleton3d::Node& node : panel.following.skeleton.good->nodes)
+      if (const auto miss = node.reprojection_px.find(view); miss != node.reprojection_px.end()) misses.push_back(miss->second);
+  return misses.empty() ? std::nullopt : std::optional(quantify::medianOf(std::move(misses)));
+}
+
+/// Where a given camera stands, and how well clicks fit it.
+void givenCamera(const Panel& panel, const skeleton3d::View& view) {
+  const auto miss = typicalMiss(panel, view.name);
+  if (!miss || view.camera.model == skeleton3d::CameraModel::Unknown) return;
+  const bool isNear = view.camera.model == skeleton3d::CameraModel::Perspective;
+  fact(panel, nameOfView(panel, view.name).c_str(), filled(panel.t(isNear ? "camera_given" : "camera_given_far"), {{"far", shortest(roundedTo(glm::length(view.camera.translation), 3))}, {"unit", panel.project.unit}, {"px", fixed(*miss, 2)}}));
+}
+
+/// Poses and residuals of the cameras, and what a person should look at.
 void camerasFound(const Panel& panel, const document::Measured& measured) {
   constexpr std::size_t kMostNotes = 4;
+  for (const skeleton3d::View& view : measured.views) {
+    const bool estimated = std::any_of(measured.cameras.begin(), measured.cameras.end(), [&](const auto& report) { return report.view == view.name; });
+    if (!estimated) givenCamera(panel, view);
+  }
   for (const auto& report : measured.cameras) {
     fact(panel, nameOfView(panel, report.view).c_str(), filled(panel.t("camera_estimated"), {{"px", fixed(report.typical_px, 2)}, {"deg", fixed(report.turned.degrees(), 1)}}));
     for (const std::string& weak : report.weak) say(panel, NoticeKind::Warned, weak);
