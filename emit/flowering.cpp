@@ -269,17 +269,7 @@ class Bearer {
     flowering_.plan.stepTime = stepTime();
     flowering_.plan.fruit.bloom = inflorescenceText(flowering_.plan, firstApex_, 1).steps + 2;
     const int firstStage = std::max(nextFree(OrganKind::Stem), nextFree(OrganKind::Leaf));
-    const InflorescenceText text = inflorescenceText(flowering_.plan, firstApex_, firstStage);
-    PlantText alone;
-    alone.name = "inflorescence";
-    alone.stems = text.stemStages;
-    alone.leaves = text.leafStages;
-    alone.flowers = text.flowerStages;
-    alone.fruits = text.fruitStages;
-    alone.axiom = "A(" + std::to_string(firstApex_) + ")";
-    alone.rules = text.rules;
-    alone.decomposition = text.decomposition;
-    const auto guest = grammarOf(alone);
+    const auto guest = inflorescenceGrammar(flowering_.plan, firstApex_, firstStage);
     if (!guest) return guest.failure();
     receive(*guest);
     return {};

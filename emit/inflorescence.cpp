@@ -319,15 +319,15 @@ std::vector<std::string> inflorescenceNames() {
 
 InflorescenceText inflorescenceText(const InflorescencePlan& plan, int firstApex, int firstStage) { return Writer(plan, firstApex, firstStage).written(); }
 
-Result<simeco::Grammar> inflorescenceGrammar(const InflorescencePlan& plan) {
-  const InflorescenceText text = inflorescenceText(plan, 10, 1);
+Result<simeco::Grammar> inflorescenceGrammar(const InflorescencePlan& plan, int firstApex, int firstStage) {
+  const InflorescenceText text = inflorescenceText(plan, firstApex, firstStage);
   PlantText plant;
   plant.name = "inflorescence";
   plant.stems = text.stemStages;
   plant.leaves = text.leafStages;
   plant.flowers = text.flowerStages;
   plant.fruits = text.fruitStages;
-  plant.axiom = "A(10)";
+  plant.axiom = "A(" + std::to_string(firstApex) + ")";
   plant.rules = text.rules;
   plant.decomposition = text.decomposition;
   return grammarOf(plant);

@@ -59,7 +59,7 @@ struct InflorescenceText {
 };
 [[nodiscard]] InflorescenceText inflorescenceText(const InflorescencePlan& plan, int firstApex, int firstStage);
 
-/// The inflorescence alone, on a stalk.
-[[nodiscard]] Result<simeco::Grammar> inflorescenceGrammar(const InflorescencePlan& plan);
+/// The inflorescence alone, on a stalk; its apices and stages are numbered from these on, so that it can be taken into another plant.
+[[nodiscard]] Result<simeco::Grammar> inflorescenceGrammar(const InflorescencePlan& plan, int firstApex = 10, int firstStage = 1);
 
 }  // namespace axil::emit
