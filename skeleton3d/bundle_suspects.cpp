@@ -55,6 +55,15 @@ double typicalPixel(std::span<const View> views, const std::map<NodeId, glm::dve
   return medianOf(std::move(sizes));
 }
 
+/// Where a wrong click was rather meant to be, and how sure that is.
+void takeRather(const View& view, const ClickReading& reading, SuspectClick& suspect) {
+  const glm::dvec2 rather = project(view.camera, {reading.at}).px;
+  suspect.rather = PhotoPoint{rather};
+  for (const double side : {-1.0, 1.0})
+    if (const glm::dvec3 end = reading.at + side * reading.sigmaAlong; isInFront(view.camera, {end}))
+      suspect.ratherSigma_px = std::max(suspect.ratherSigma_px, glm::length(project(view.camera, {end}).px - rather));
+}
+
 /// The clicks that are wrong in the likely readings of a node, each with its chance.
 std::vector<SuspectClick> named(const ClickedNode& node, const std::vector<View>& views, const std::vector<ClickReading>& readings) {
   if (readings.empty()) return {};
@@ -67,7 +76,7 @@ std::vector<SuspectClick> named(const ClickedNode& node, const std::vector<View>
     if (chance < kWorthNaming) continue;
     const glm::dvec2 rather = project(findView(views, view)->camera, {likeliest.at}).px;
     SuspectClick suspect{node.id, view, glm::length(rather - click.px), chance, std::nullopt};
-    if (likeliest.weight >= kSure && likeliest.right.size() == 1 && !likeliest.right.contains(view)) suspect.rather = PhotoPoint{rather};
+    if (likeliest.weight >= kSure && likeliest.right.size() == 1 && !likeliest.right.contains(view)) takeRather(*findView(views, view), likeliest, suspect);
     suspects.push_back(suspect);
   }
   return suspects;

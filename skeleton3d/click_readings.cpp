@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace axil::skeleton3d::detail {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kWrong = 0.05;   // of the clicks, before anything is known of them
 constexpr double kAway = 0.05;    // of the photo's longer side: about so far a wrong click is off
-constexpr double kNever = -1e9;   // logarithm of a weight
 
 /// The logarithm of the probability that a click is wrong and where it is, per squared pixel.
 double logWrong(const View& view) {
@@ -44,7 +44,7 @@ std::optional<ClickReading> byCrossing(const ClickedNode& right, const Grounds& 
   const double variance = grounds.click_px * grounds.click_px, clicks = static_cast<double>(right.clicks.size());
   double squares = 0;
   for (const auto& [view, off_px] : node.reprojection_px) squares += off_px * off_px / variance;
-  const double room = glm::determinant(covarianceOfPlace(grounds.views, right, node.position)) * std::pow(2 * kPi * variance, 3);
+  const double room = glm::determinant(covarianceOfPlace(grounds.views, right, node.position, grounds.click_px)) * std::pow(2 * kPi, 3);
   if (!(room > 0) || !std::isfinite(room)) return std::nullopt;
   ClickReading reading{{}, node.position.at, 0};
   reading.weight = -0.5 * squares + clicks * std::log((1 - kWrong) / (2 * kPi * variance)) + 0.5 * std::log(room) + expectationAt(grounds.course, right.id, reading.at) +
@@ -66,17 +66,21 @@ std::optional<ClickReading> alongRay(NodeId node, const View& view, PhotoPoint c
   if (!expected) return std::nullopt;
   const Ray ray = rayThrough(view.camera, click);
   const double middle = glm::dot(expected->at - ray.origin.at, ray.direction.unit()), step = expected->reach / kHalf;
-  double most = kNever, sum = 0;
-  ClickReading best;
-  for (int k = -kHalf; k <= kHalf; ++k) {
-    const glm::dvec3 at = ray.origin.at + (middle + k * step) * ray.direction.unit();
-    if (!isInFront(view.camera, {at})) continue;
-    const double here = expectationAt(grounds.course, node, at) + seenAt(grounds, node, at) + std::log(step * areaOfPixel(view.camera, at));
-    if (here > most) sum *= std::exp(most - here), most = here, best.at = at;
-    sum += std::exp(here - most);
+  const auto placeAt = [&](int k) { return ray.origin.at + (middle + k * step) * ray.direction.unit(); };
+  std::map<int, double> weights;  // logarithms
+  for (int k = -kHalf; k <= kHalf; ++k)
+    if (const glm::dvec3 at = placeAt(k); isInFront(view.camera, {at}))
+      weights[k] = expectationAt(grounds.course, node, at) + seenAt(grounds, node, at) + std::log(step * areaOfPixel(view.camera, at));
+  if (weights.empty()) return std::nullopt;
+  const auto most = std::max_element(weights.begin(), weights.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  double sum = 0, squares = 0;
+  for (const auto& [k, weight] : weights) {
+    const double share = std::exp(weight - most->second);
+    sum += share;
+    squares += share * (k - most->first) * (k - most->first);
   }
-  if (!(sum > 0)) return std::nullopt;
-  best.weight = most + std::log(sum) + std::log(1 - kWrong);
+  ClickReading best{{}, placeAt(most->first), most->second + std::log(sum) + std::log(1 - kWrong)};
+  best.sigmaAlong = std::sqrt(squares / sum + 1.0 / 12) * step * ray.direction.unit();
   return best;
 }
 

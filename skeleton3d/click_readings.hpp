@@ -30,6 +30,7 @@ struct ClickReading {
   std::set<std::string> right;  ///< views whose clicks are meant for the node
   glm::dvec3 at{0, 0, 0};
   double weight = 0;            ///< of all readings together 1
+  glm::dvec3 sigmaAlong{0, 0, 0};  ///< with one right click: how far along its ray the node may be from `at`
 };
 
 /// The likeliest first. Empty for a node that no reading gives a place.

@@ -4,6 +4,7 @@
 #include "skeleton3d/bundle.hpp"
 #include "skeleton3d/camera.hpp"
 #include "skeleton3d/estimate_notes.hpp"
+#include "skeleton3d/placed_clicks.hpp"
 #include "skeleton3d/solve_all.hpp"
 
 #include <glm/geometric.hpp>
@@ -157,17 +158,33 @@ bool sameClicks(const std::vector<SuspectClick>& a, const std::vector<SuspectCli
 /// Cameras that are all known: nothing to estimate, but the clicks can be judged.
 Result<EstimatedCameras> judged(std::span<const View> views, std::span<const ClickedNode> nodes, const EstimateOptions& options) {
   EstimatedCameras known{{views.begin(), views.end()}, {}, {}, {}, {}};
-  std::vector<ClickedNode> shared;
-  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(shared), [](const ClickedNode& node) { return node.clicks.size() > 1; });
+  std::vector<ClickedNode> shared = detail::byHand(nodes);
+  std::erase_if(shared, [](const ClickedNode& node) { return node.clicks.size() < 2; });
   const double click_px = clickOr(options, detail::robustScatterOf(views, shared).click_px);
   known.suspects = detail::suspectsAmong(shared, known.views, click_px, options.stems, options.evidence.get());
   constexpr double kFarOff_px = 6;  // no one clicks so badly
   if (click_px > kFarOff_px || suspectNodes(known.suspects) > kMostSuspect * static_cast<double>(shared.size()))
     if (const std::string better = detail::betterReading(views, shared); !better.empty()) return misread(better);
-  auto uncertainty = uncertaintyOf(views, withoutSuspects(shared, known.suspects), options.click_px);
+  auto uncertainty = uncertaintyOf(views, withoutSuspects(nodes, known.suspects), options.click_px);
   if (!uncertainty) return uncertainty.failure();
   known.uncertainty = *std::move(uncertainty);
   return known;
+}
+
+/// Nodes that had no part in finding the cameras: those that too few trusted clicks fix, as sure as they are in these cameras.
+void addOtherNodes(std::span<const ClickedNode> nodes, EstimatedCameras& estimated) {
+  Uncertainty& uncertainty = estimated.uncertainty;
+  std::set<NodeId> there;
+  for (const NodeSpread& node : uncertainty.nodes) there.insert(node.id);
+  std::vector<ClickedNode> others = withoutSuspects(nodes, estimated.suspects);
+  std::erase_if(others, [&](const ClickedNode& node) { return node.clicks.size() < 2 || there.contains(node.id); });
+  auto spread = uncertaintyOf(estimated.views, others, uncertainty.click_px);
+  if (others.empty() || !spread) return;
+  for (NodeSpread& node : spread->nodes) {
+    if (!uncertainty.nodes.empty()) node.shared.assign(uncertainty.nodes.front().shared.size(), glm::dvec3(0.0));
+    uncertainty.nodes.push_back(std::move(node));
+  }
+  std::stable_sort(uncertainty.nodes.begin(), uncertainty.nodes.end(), [](const NodeSpread& a, const NodeSpread& b) { return a.id < b.id; });
 }
 
 EstimatedCameras resultOf(std::span<const View> order, const Bundle& bundle, const detail::Scatter& scatter, std::vector<SuspectClick> suspects, const EstimateOptions& options) {
@@ -199,7 +216,7 @@ Result<EstimatedCameras> estimateCameras(std::span<const View> views, const std:
   if (const auto good = checkInput(views, nodes); !good) return good.failure();
   if (std::none_of(views.begin(), views.end(), [](const View& v) { return v.camera.model == CameraModel::Unknown; })) return judged(views, nodes, options);
 
-  const auto bundle = fitted(views, hints, nodes, options);
+  const auto bundle = fitted(views, hints, detail::byHand(nodes), options);
   if (!bundle) return bundle.failure();
   auto sifted = siftedOf(*bundle, options);
   if (!sifted) return sifted.failure();
@@ -211,6 +228,7 @@ Result<EstimatedCameras> estimateCameras(std::span<const View> views, const std:
     if (!done) return done.failure();
   }
   EstimatedCameras estimated = resultOf(views, done->bundle, done->scatter, std::move(sifted->suspects), options);
+  addOtherNodes(nodes, estimated);
   for (std::string& note : detail::borderNotes(*bundle)) estimated.notes.push_back(std::move(note));
   std::string doubt = detail::doubtOn(*bundle, options);
   if (!doubt.empty() && suspectNodes(estimated.suspects) > kMostSuspect * static_cast<double>(bundle->nodes)) return misread(doubt);
@@ -231,7 +249,7 @@ std::vector<ClickedNode> withoutSuspects(std::span<const ClickedNode> nodes, std
     for (const SuspectClick* suspect : own) {
       if (suspect != own.front() && suspect->chance < kLikely) break;
       if (suspect->rather)
-        node.clicks[suspect->view] = *suspect->rather;
+        node.clicks[suspect->view] = *suspect->rather, node.placed[suspect->view] = suspect->ratherSigma_px;
       else
         node.clicks.erase(suspect->view);
     }

@@ -78,6 +78,7 @@ struct SuspectClick {
   double chance = 1;  ///< of being wrong
   /// Where it was rather meant to be, where only one click of its node is right: by that one, the stem's course and the photos.
   std::optional<PhotoPoint> rather = std::nullopt;
+  double ratherSigma_px = 0;  ///< standard deviation of `rather`
 
   friend bool operator==(const SuspectClick&, const SuspectClick&) = default;
 };
@@ -101,7 +102,7 @@ inline constexpr std::size_t kFewestSharedNodes = 4;
                                                        std::span<const ClickedNode> nodes, const EstimateOptions& options = {});
 
 /// The nodes without the suspect clicks that are more likely wrong than not, or, where none is, without the likeliest one. Where only one
-/// click of a node is right the others go to where they were rather meant to be; a node without that has no place.
+/// click of a node is right the others go to where they were rather meant to be, as placed by the program; a node without that has no place.
 [[nodiscard]] std::vector<ClickedNode> withoutSuspects(std::span<const ClickedNode> nodes, std::span<const SuspectClick> suspects);
 
 }  // namespace axil::skeleton3d

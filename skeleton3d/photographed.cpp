@@ -1,6 +1,7 @@
 #include "skeleton3d/photographed.hpp"
 
 #include "skeleton3d/camera.hpp"
+#include "skeleton3d/placed_clicks.hpp"
 #include "skeleton3d/solve_all.hpp"
 #include "skeleton3d/stem_evidence.hpp"
 
@@ -18,7 +19,7 @@ struct Task {
   std::span<const View> views;
   const std::map<std::string, UnknownCameraHints>& hints;
   const Photos& photos;
-  std::span<const ClickedNode> nodes;
+  std::span<const ClickedNode> nodes;  ///< as a person clicked them
   EstimateOptions options;
 };
 
@@ -146,6 +147,14 @@ Result<void> round(const Task& task, const ExpectedRidges& expected, double came
   return place(found, withoutSuspects(task.nodes, found.cameras.suspects), 0);
 }
 
+/// Nodes once more with what the program clicked itself, now that the cameras are found without it.
+Result<void> withPlacedClicks(const Task& task, std::span<const ClickedNode> nodes, const ExpectedRidges& expected, Photographed& found) {
+  if (std::all_of(nodes.begin(), nodes.end(), [](const ClickedNode& node) { return node.placed.empty(); })) return {};
+  const std::vector<ClickedNode> all = withoutSuspects(nodes, found.cameras.suspects);
+  found.snapping.readings = readAllRidges(task.photos, all, task.options.stems, snapOptionsFor(found.cameras), expected);
+  return place(found, all, 0);
+}
+
 void takeSpread(const Uncertainty& uncertainty, std::vector<SnappedNode>& nodes) {
   for (SnappedNode& node : nodes)
     if (const auto spread = covariance(uncertainty, node.id, node.id)) node.covariance = *spread;
@@ -170,10 +179,8 @@ std::shared_ptr<const detail::StemEvidence> evidenceFor(const Task& task, const 
   return std::make_shared<const detail::StemEvidence>(detail::learnedEvidence(task.photos, cameras.views, places, task.options.stems, cameras.uncertainty.click_px));
 }
 
-Result<Photographed> inKnownCameras(const Task& task, EstimatedCameras cameras) {
-  const std::vector<ClickedNode> kept = withoutSuspects(task.nodes, cameras.suspects);
-  SnapOptions options = snapOptionsFor(cameras);
-  auto snapping = snapNodes(cameras.views, task.photos, kept, task.options.stems, options);
+Result<Photographed> inKnownCameras(const Task& task, std::span<const ClickedNode> nodes, EstimatedCameras cameras) {
+  auto snapping = snapNodes(cameras.views, task.photos, withoutSuspects(nodes, cameras.suspects), task.options.stems, snapOptionsFor(cameras));
   if (!snapping) return snapping.failure();
   giveSpread(snapping->nodes, cameras.uncertainty);
   return Photographed{std::move(cameras), *std::move(snapping)};
@@ -183,13 +190,14 @@ Result<Photographed> inKnownCameras(const Task& task, EstimatedCameras cameras) 
 
 Result<Photographed> measurePhotographed(std::span<const View> views, const std::map<std::string, UnknownCameraHints>& hints, const Photos& photos,
                                          std::span<const ClickedNode> nodes, const EstimateOptions& options) {
-  Task task{views, hints, photos, nodes, options};
+  const std::vector<ClickedNode> own = detail::byHand(nodes);
+  Task task{views, hints, photos, own, options};
   auto byClicks = estimateCameras(views, hints, nodes, options);
   if (!byClicks) return byClicks.failure();
   task.options.evidence = evidenceFor(task, *byClicks);
   byClicks = estimateCameras(views, hints, nodes, task.options);
   if (!byClicks) return byClicks.failure();
-  if (byClicks->reports.empty()) return inKnownCameras(task, *std::move(byClicks));
+  if (byClicks->reports.empty()) return inKnownCameras(task, nodes, *std::move(byClicks));
 
   Photographed found{*std::move(byClicks), {}};
   const double cameras_px = 0.5 * found.cameras.uncertainty.click_px;  // as clicks alone find them
@@ -198,6 +206,7 @@ Result<Photographed> measurePhotographed(std::span<const View> views, const std:
   constexpr double kByLines_px = 0.1;
   if (auto done = round(task, expected, kByLines_px, found); !done) return done.failure();
   takeSpread(found.cameras.uncertainty, found.snapping.nodes);
+  if (auto done = withPlacedClicks(task, nodes, expected, found); !done) return done.failure();
   return found;
 }
 

@@ -1,6 +1,7 @@
 #include "skeleton3d/snap_place.hpp"
 
 #include "skeleton3d/camera.hpp"
+#include "skeleton3d/placed_clicks.hpp"
 #include "skeleton3d/solve_all.hpp"
 #include "skeleton3d/statistics.hpp"
 #include "skeleton3d/width.hpp"
@@ -19,6 +20,7 @@ namespace {
 struct Sight {
   const View* view = nullptr;
   glm::dvec2 click{0, 0};
+  double click_px = 1;  ///< its standard deviation; endless where it tells nothing
   const RidgeReading* ridge = nullptr;
 };
 
@@ -35,9 +37,9 @@ glm::dvec2 directionOf(Angle along) { return {std::cos(along.radians()), std::si
 constexpr double kLeastConfidence = 0.2;  // of a reading whose width counts
 constexpr double kTipMissed = 5;     // what it costs not to believe an end that a photo shows, in squared sigmas; all of a node are believed or none
 
-void addConstraints(const Sight& sight, bool believed, bool tips, double click_px, double cameras_px, std::vector<Constraint>& constraints) {
-  constraints.push_back({sight.view, sight.click, {1 / click_px, 0}});
-  constraints.push_back({sight.view, sight.click, {0, 1 / click_px}});
+void addConstraints(const Sight& sight, bool believed, bool tips, double cameras_px, std::vector<Constraint>& constraints) {
+  constraints.push_back({sight.view, sight.click, {1 / sight.click_px, 0}});
+  constraints.push_back({sight.view, sight.click, {0, 1 / sight.click_px}});
   if (!believed) return;
   const glm::dvec2 along = directionOf(sight.ridge->along);
   constraints.push_back({sight.view, sight.ridge->at.px, glm::dvec2{-along.y, along.x} / std::hypot(sight.ridge->sigmaAcross_px, cameras_px)});
@@ -112,7 +114,7 @@ struct Believed {
 };
 
 /// Every choice of ridges to believe; the likeliest wins. At most kMaxViews are tried in all ways.
-Believed mostLikely(const std::vector<Sight>& sights, PlantPoint start, double click_px, double cameras_px) {
+Believed mostLikely(const std::vector<Sight>& sights, PlantPoint start, double cameras_px) {
   std::vector<std::size_t> withRidge;
   for (std::size_t i = 0; i < sights.size(); ++i)
     if (sights[i].ridge != nullptr && withRidge.size() < 6) withRidge.push_back(i);
@@ -130,7 +132,7 @@ Believed mostLikely(const std::vector<Sight>& sights, PlantPoint start, double c
       if (!believed[withRidge[k]]) cost += costOfDisbelief(ridge);
       if (ridge.tip && !(tips && believed[withRidge[k]])) cost += kTipMissed;
     }
-    for (std::size_t i = 0; i < sights.size(); ++i) addConstraints(sights[i], believed[i], tips, click_px, cameras_px, constraints);
+    for (std::size_t i = 0; i < sights.size(); ++i) addConstraints(sights[i], believed[i], tips, cameras_px, constraints);
     const Placed here = placed(constraints, start);
     cost += here.squares;
     if (choice > 0 && !(cost < best.cost)) continue;
@@ -148,10 +150,12 @@ void addRadius(SnappedNode& node, const std::vector<Sight>& sights, unsigned whi
   if (const auto radius = combinedRadius(readings)) node.radius = radius->radius, node.sigmaRadius = radius->sigma;
 }
 
-std::vector<Sight> sightsOf(std::span<const View> views, const ClickedNode& node, const RidgeReadings& readings) {
+/// `fixing`: the node as it was placed by clicks alone. What the program clicked beyond them is a place to read, no more.
+std::vector<Sight> sightsOf(std::span<const View> views, const ClickedNode& node, const Node& fixing, const RidgeReadings& readings, double click_px) {
   std::vector<Sight> sights;
   for (const auto& [name, click] : node.clicks) {
-    Sight sight{detail::findView(views, name), click.px, nullptr};
+    const double sigma_px = fixing.reprojection_px.contains(name) ? detail::scatterOf(node, name, click_px) : std::numeric_limits<double>::infinity();
+    Sight sight{detail::findView(views, name), click.px, sigma_px, nullptr};
     if (const auto view = readings.find(name); view != readings.end())
       if (const auto found = view->second.find(node.id); found != view->second.end()) sight.ridge = &found->second;
     sights.push_back(sight);
@@ -284,8 +288,8 @@ Result<std::vector<SnappedNode>> placeSnapped(std::span<const View> views, std::
   std::vector<SnappedNode> result;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!solved->nodes[i]) continue;
-    const std::vector<Sight> sights = sightsOf(views, nodes[i], readings);
-    const Believed best = mostLikely(sights, solved->nodes[i]->position, click_px, cameras_px);
+    const std::vector<Sight> sights = sightsOf(views, nodes[i], *solved->nodes[i], readings, click_px);
+    const Believed best = mostLikely(sights, solved->nodes[i]->position, cameras_px);
     SnappedNode node{nodes[i].id, best.placed.at, glm::inverse(best.placed.normal), {}};
     for (std::size_t k = 0; k < sights.size(); ++k)
       if ((best.which >> k & 1U) != 0) node.snappedIn.push_back(sights[k].view->name);

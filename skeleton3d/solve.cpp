@@ -3,6 +3,7 @@
 #include "base/text.hpp"
 #include "skeleton3d/camera.hpp"
 #include "skeleton3d/linear_least_squares.hpp"
+#include "skeleton3d/placed_clicks.hpp"
 #include "skeleton3d/projection.hpp"
 #include "skeleton3d/solve_all.hpp"
 
@@ -24,16 +25,17 @@ struct Sighting {
   PhotoPoint click;
   glm::dvec2 undistorted{0, 0};
   Ray ray;
+  double weight = 1;  ///< standard deviation of a person's click over this one's
 };
 
 std::string nodeName(NodeId id) { return "node " + std::to_string(id.value); }
 
-std::vector<Sighting> sightingsOf(std::span<const View> views, const ClickedNode& node) {
+std::vector<Sighting> allSightingsOf(std::span<const View> views, const ClickedNode& node, double click_px) {
   std::vector<Sighting> sightings;
   for (const auto& [name, click] : node.clicks) {
     const View* view = detail::findView(views, name);
     const glm::dvec2 straight = undistorted(view->camera, click);
-    sightings.push_back({view, click, straight, rayOf(view->camera, straight)});
+    sightings.push_back({view, click, straight, rayOf(view->camera, straight), click_px / detail::scatterOf(node, name, click_px)});
   }
   return sightings;
 }
@@ -49,6 +51,13 @@ Angle widestAngle(const std::vector<Sighting>& sightings) {
   return widest;
 }
 
+/// The clicks that place a node: those of a person, as far as they do; with what the program placed where they do not.
+std::vector<Sighting> sightingsOf(std::span<const View> views, const ClickedNode& node, const SolveOptions& options) {
+  if (node.placed.empty()) return allSightingsOf(views, node, options.click_px);
+  std::vector<Sighting> own = allSightingsOf(views, detail::byHand(node), options.click_px);
+  return widestAngle(own) >= options.minRayAngle ? own : allSightingsOf(views, node, options.click_px);
+}
+
 /// The two equations x_view = x of a click, in pixels at the depth of the plant's origin, so that near and far views weigh
 /// about alike.
 void addRows(const Sighting& s, std::vector<detail::LinearRow>& rows) {
@@ -57,7 +66,7 @@ void addRows(const Sighting& s, std::vector<detail::LinearRow>& rows) {
   const bool flat = camera.model == CameraModel::Orthographic;
   const double depth = std::max(std::abs(camera.translation.z), 1e-6 * glm::length(camera.translation));
   for (int i = 0; i < 2; ++i) {
-    const double weight = flat ? camera.scale_px_per_unit : depth > 0 ? (*camera.focal_px)[i] / depth : 1.0;
+    const double weight = s.weight * (flat ? camera.scale_px_per_unit : depth > 0 ? (*camera.focal_px)[i] / depth : 1.0);
     const glm::dvec3 a = flat ? r[i] : r[i] - s.undistorted[i] * r[2];
     const double b = flat ? s.undistorted[i] - camera.translation[i] : s.undistorted[i] * camera.translation.z - camera.translation[i];
     rows.push_back({weight * a, weight * b});
@@ -97,11 +106,11 @@ class Reprojection {
     for (std::size_t i = 0; i < sightings_.size(); ++i) {
       const Camera& camera = sightings_[i].view->camera;
       const glm::dvec2 off = project(camera, point).px - sightings_[i].click.px;
-      for (std::size_t k = 0; k < 2; ++k) residuals[2 * i + k] = off[static_cast<int>(k)];
+      for (std::size_t k = 0; k < 2; ++k) residuals[2 * i + k] = sightings_[i].weight * off[static_cast<int>(k)];
       if (jacobian == nullptr) continue;
       const auto j = pixelJacobian(camera, point);
       for (std::size_t k = 0; k < 2; ++k)
-        for (std::size_t c = 0; c < 3; ++c) jacobian[c * rows + 2 * i + k] = j[k][static_cast<int>(c)];
+        for (std::size_t c = 0; c < 3; ++c) jacobian[c * rows + 2 * i + k] = sightings_[i].weight * j[k][static_cast<int>(c)];
     }
     return true;
   }
@@ -124,7 +133,7 @@ PlantPoint refined(const std::vector<Sighting>& sightings, PlantPoint start) {
 glm::dmat3 covarianceAt(const std::vector<Sighting>& sightings, PlantPoint point) {
   glm::dmat3 normal(0.0);
   for (const Sighting& s : sightings)
-    for (const glm::dvec3& row : pixelJacobian(s.view->camera, point)) normal += glm::outerProduct(row, row);
+    for (const glm::dvec3& row : pixelJacobian(s.view->camera, point)) normal += s.weight * s.weight * glm::outerProduct(row, row);
   return glm::inverse(normal);
 }
 
@@ -185,7 +194,7 @@ Attempt refused(NodeId id, const std::string& why) { return {std::nullopt, {{Err
 
 Attempt solveOne(std::span<const View> views, const ClickedNode& clicked, const SolveOptions& options, const std::string& unit) {
   if (auto troubles = detail::clickTroubles(views, clicked); !troubles.empty()) return {std::nullopt, std::move(troubles)};
-  const std::vector<Sighting> sightings = sightingsOf(views, clicked);
+  const std::vector<Sighting> sightings = sightingsOf(views, clicked, options);
   if (sightings.empty()) return refused(clicked.id, "is clicked in no view; click it in two");
   if (sightings.size() < 2) return refused(clicked.id, "is clicked in one view only (" + sightings.front().view->name + "); click it in another too");
   if (const Angle widest = widestAngle(sightings); !(widest >= options.minRayAngle))
@@ -250,7 +259,9 @@ std::vector<Trouble> clickTroubles(std::span<const View> views, const ClickedNod
   return troubles;
 }
 
-glm::dmat3 covarianceOfPlace(std::span<const View> views, const ClickedNode& node, PlantPoint point) { return covarianceAt(sightingsOf(views, node), point); }
+glm::dmat3 covarianceOfPlace(std::span<const View> views, const ClickedNode& node, PlantPoint point, double click_px) {
+  return click_px * click_px * covarianceAt(sightingsOf(views, node, {.click_px = click_px}), point);
+}
 
 Failure failWith(const std::vector<Trouble>& troubles, const std::string& what) {
   AXIL_ASSERT(!troubles.empty(), "no trouble to fail with");

@@ -23,8 +23,8 @@ struct Solved {
 /// Fails only where the views or options themselves are wrong. `unit` is the word for lengths in messages.
 [[nodiscard]] Result<Solved> solveAll(std::span<const View> views, std::span<const ClickedNode> nodes, const SolveOptions& options, const std::string& unit);
 
-/// Covariance of a node's place for clicks that scatter by one pixel, from its clicks in known cameras.
-[[nodiscard]] glm::dmat3 covarianceOfPlace(std::span<const View> views, const ClickedNode& node, PlantPoint point);
+/// Covariance of a node's place for clicks that scatter by `click_px`, from its clicks in known cameras.
+[[nodiscard]] glm::dmat3 covarianceOfPlace(std::span<const View> views, const ClickedNode& node, PlantPoint point, double click_px);
 
 /// One Error of at least one trouble: `what` names the whole ("the clicks do not make a skeleton") and the first trouble
 /// stands behind it; where there are several, `details` has a line for each, the first included.

@@ -73,10 +73,15 @@ struct UnknownCameraHints {
 };
 
 /// A point of the plant as a person clicked it: at most one click a view, keyed by the view's name.
+///
+/// A click that the program put there by what other views say, and that nobody has confirmed, is named in `placed`. It agrees with the
+/// cameras that placed it, so it tells nothing about cameras or about other clicks: cameras are estimated without it, no click is judged
+/// by it, and a node that a person clicked in two views is placed without it. Only where those do not fix the node does it count.
 struct ClickedNode {
   NodeId id;
   std::map<std::string, PhotoPoint> clicks;
   std::optional<double> radius;  ///< half the stem's width, project's unit
+  std::map<std::string, double> placed = {};  ///< view -> how far off such a click may be (standard deviation, px; as any click where less)
 
   friend bool operator==(const ClickedNode&, const ClickedNode&) = default;
 };

@@ -1,5 +1,6 @@
 #include "skeleton3d/uncertainty.hpp"
 
+#include "skeleton3d/placed_clicks.hpp"
 #include "skeleton3d/solve_all.hpp"
 #include "skeleton3d/statistics.hpp"
 
@@ -40,18 +41,22 @@ double sigmaAlong(const Uncertainty& uncertainty, const std::vector<Slope>& slop
 std::vector<NodeSpread> spreadsOf(std::span<const View> views, std::span<const ClickedNode> clicked, const std::vector<std::optional<Node>>& nodes, double click_px) {
   std::vector<NodeSpread> spreads;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (nodes[i]) spreads.push_back({nodes[i]->id, nodes[i]->position, click_px * click_px * detail::covarianceOfPlace(views, clicked[i], nodes[i]->position), {}});
+    if (nodes[i]) spreads.push_back({nodes[i]->id, nodes[i]->position, detail::covarianceOfPlace(views, clicked[i], nodes[i]->position, click_px), {}});
   std::stable_sort(spreads.begin(), spreads.end(), [](const NodeSpread& a, const NodeSpread& b) { return a.id < b.id; });
   return spreads;
 }
 
-detail::Scatter scatterOf(const std::vector<std::optional<Node>>& nodes) {
+bool isByHand(const ClickedNode& clicked, const Node& node) {
+  return std::all_of(node.reprojection_px.begin(), node.reprojection_px.end(), [&](const auto& off) { return detail::isByHand(clicked, off.first); });
+}
+
+detail::Scatter scatterOf(std::span<const ClickedNode> clicked, const std::vector<std::optional<Node>>& nodes) {
   double squares = 0;
   int freedom = 0;
-  for (const auto& node : nodes) {
-    if (!node) continue;
-    freedom += 2 * static_cast<int>(node->reprojection_px.size()) - 3;
-    for (const auto& [view, off_px] : node->reprojection_px) squares += off_px * off_px;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!nodes[i] || !isByHand(clicked[i], *nodes[i])) continue;
+    freedom += 2 * static_cast<int>(nodes[i]->reprojection_px.size()) - 3;
+    for (const auto& [view, off_px] : nodes[i]->reprojection_px) squares += off_px * off_px;
   }
   return detail::scatterFrom(squares, freedom);
 }
@@ -62,7 +67,7 @@ Result<Uncertainty> uncertaintyOf(std::span<const View> views, std::span<const C
   const auto solved = detail::solveAll(views, nodes, {.click_px = click_px.value_or(1)}, "plant units");
   if (!solved) return solved.failure();
   Uncertainty uncertainty;
-  const detail::Scatter scatter = scatterOf(solved->nodes);
+  const detail::Scatter scatter = scatterOf(nodes, solved->nodes);
   uncertainty.click_px = click_px.value_or(scatter.click_px);
   uncertainty.clickWasFound = !click_px;
   uncertainty.freedom = scatter.freedom;
