@@ -96,7 +96,9 @@ bool anyUnknown(const std::vector<skeleton3d::View>& views) {
 }
 
 std::size_t nodesShared(std::span<const skeleton3d::ClickedNode> nodes, const std::string& view) {
-  return static_cast<std::size_t>(std::count_if(nodes.begin(), nodes.end(), [&](const auto& node) { return node.clicks.size() > 1 && node.clicks.contains(view); }));
+  return static_cast<std::size_t>(std::count_if(nodes.begin(), nodes.end(), [&](const auto& node) {
+    return node.clicks.size() - node.placed.size() > 1 && node.clicks.contains(view) && !node.placed.contains(view);
+  }));
 }
 
 /// Whether the only known length or the only origin is in this view: then it is better asked for more clicks than left out.
@@ -126,7 +128,7 @@ Measured withoutUnusableViews(Measured clicks, const Project& project) {
     if (view == nullptr) break;
     clicks.notes.push_back("view '" + view->name + "' is left out: of the nodes clicked there " + std::to_string(nodesShared(clicks.nodes, view->name)) + " are clicked in other views too; click at least " +
                            std::to_string(skeleton3d::kFewestSharedNodes));
-    for (skeleton3d::ClickedNode& node : clicks.nodes) node.clicks.erase(view->name);
+    for (skeleton3d::ClickedNode& node : clicks.nodes) node.clicks.erase(view->name), node.placed.erase(view->name);
     clicks.views.erase(clicks.views.begin() + (view - clicks.views.data()));
   }
   return clicks;

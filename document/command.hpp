@@ -176,6 +176,16 @@ struct AddClick {
   PhotoPoint at;
   friend bool operator==(const AddClick&, const AddClick&) = default;
 };
+/// A click that the program puts where other photos say the node is, and that no person has confirmed yet: cameras are not estimated
+/// from it (skeleton3d::ClickedNode::placed).
+struct PlaceClick {
+  NodeId node;
+  std::string view;
+  PhotoPoint at;
+  double within_px = 0;  ///< how far off it may be (standard deviation); as any click where that is less
+  friend bool operator==(const PlaceClick&, const PlaceClick&) = default;
+};
+/// From here on it is a person's click.
 struct MoveClick {
   NodeId node;
   std::string view;
@@ -284,7 +294,8 @@ using Command = std::variant<SetName, SetDescription, SetSeed, SetUnit,         
                              AddView, RemoveView, RenameView, SwapViews, RelinkPhoto, SetPhotoSize,              //
                              SetCamera, SetCameraModel, SetFocal, ClearFocal,                                    //
                              SetOrigin, ClearOrigin, SetScale, ClearScale,                                       //
-                             AddNode, RemoveNodes, AddClick, MoveClick, RemoveClick, SetRadius, ClearRadius,     //
+                             AddNode, RemoveNodes, AddClick, PlaceClick, MoveClick, RemoveClick,                 //
+                             SetRadius, ClearRadius,                                                             //
                              AddStem, StartBranch, AppendNode, InsertNode, RemoveFromStem, AttachStem,           //
                              SplitStem, JoinStems, ReverseStem, RemoveStem,                                      //
                              AddLeaves, ChangeLeaves, RemoveLeaves, CopyLeaves>;

@@ -114,12 +114,23 @@ Result<Project> after(Project project, const AddClick& command) {
   });
 }
 
+Result<Project> after(Project project, const PlaceClick& command) {
+  if (auto checked = checkNumber("how far off the click may be", command.within_px, 0, kMaximumPixel); !checked) return checked.failure();
+  auto placed = after(std::move(project), AddClick{command.node, command.view, command.at});
+  if (!placed) return placed;
+  return withNode(*std::move(placed), command.node, [&](skeleton3d::ClickedNode& node) -> Result<void> {
+    node.placed[command.view] = command.within_px;
+    return {};
+  });
+}
+
 Result<Project> after(Project project, const MoveClick& command) {
   if (auto checked = checkClick(project, command.view, command.at); !checked) return checked.failure();
   return withNode(std::move(project), command.node, [&](skeleton3d::ClickedNode& node) -> Result<void> {
     const auto click = node.clicks.find(command.view);
     if (click == node.clicks.end()) return noClick(node.id, command.view);
     click->second = command.at;
+    node.placed.erase(command.view);
     return {};
   });
 }
@@ -127,6 +138,7 @@ Result<Project> after(Project project, const MoveClick& command) {
 Result<Project> after(Project project, const RemoveClick& command) {
   return withNode(std::move(project), command.node, [&](skeleton3d::ClickedNode& node) -> Result<void> {
     if (node.clicks.erase(command.view) == 0) return noClick(node.id, command.view);
+    node.placed.erase(command.view);
     return {};
   });
 }

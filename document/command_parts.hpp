@@ -65,6 +65,7 @@ void eraseStems(Project& project, const std::set<StemId>& stems);
 [[nodiscard]] Result<Project> after(Project project, const AddNode& command);
 [[nodiscard]] Result<Project> after(Project project, const RemoveNodes& command);
 [[nodiscard]] Result<Project> after(Project project, const AddClick& command);
+[[nodiscard]] Result<Project> after(Project project, const PlaceClick& command);
 [[nodiscard]] Result<Project> after(Project project, const MoveClick& command);
 [[nodiscard]] Result<Project> after(Project project, const RemoveClick& command);
 [[nodiscard]] Result<Project> after(Project project, const SetRadius& command);

@@ -37,22 +37,22 @@ Result<void> checkPhotoPath(const std::string& photo) {
   return {};
 }
 
-/// Gives every node that has clicks the clicks that `change` makes of them.
+/// Every node's clicks, and its marks of which are placed, go through `change`.
 template <class Change>
 void changeClicks(Project& project, Change change) {
   for (std::size_t i = 0; i < project.nodes.size(); ++i) {
-    const auto& before = project.nodes[i].node.clicks;
-    auto clicks = change(before);
-    if (clicks == before) continue;
     ProjectNode node = project.nodes[i];
-    node.node.clicks = std::move(clicks);
-    project.nodes.set(i, std::move(node));
+    node.node.clicks = change(std::move(node.node.clicks));
+    node.node.placed = change(std::move(node.node.placed));
+    if (node.node != project.nodes[i].node) project.nodes.set(i, std::move(node));
   }
 }
 
-using Clicks = std::map<std::string, PhotoPoint>;
+template <class Value>
+using ByView = std::map<std::string, Value>;
 
-Clicks withKey(Clicks clicks, const std::string& from, const std::string& to) {
+template <class Value>
+ByView<Value> withKey(ByView<Value> clicks, const std::string& from, const std::string& to) {
   auto entry = clicks.extract(from);
   if (entry.empty()) return clicks;
   entry.key() = to;
@@ -61,7 +61,8 @@ Clicks withKey(Clicks clicks, const std::string& from, const std::string& to) {
   return clicks;
 }
 
-Clicks swapped(Clicks clicks, const std::string& a, const std::string& b) {
+template <class Value>
+ByView<Value> swapped(ByView<Value> clicks, const std::string& a, const std::string& b) {
   auto ofA = clicks.extract(a), ofB = clicks.extract(b);
   if (!ofA.empty()) {
     ofA.key() = b;
@@ -179,7 +180,7 @@ Result<Project> after(Project project, const RemoveView& command) {
   const auto at = placeOfView(project, command.view);
   if (!at) return at.failure();
   project.views.erase(*at);
-  changeClicks(project, [&](Clicks clicks) {
+  changeClicks(project, [&](auto clicks) {
     clicks.erase(command.view);
     return clicks;
   });
@@ -194,7 +195,7 @@ Result<Project> after(Project project, const RenameView& command) {
   ProjectView view = project.views[*at];
   view.view.name = command.name;
   project.views.set(*at, std::move(view));
-  changeClicks(project, [&](const Clicks& clicks) { return withKey(clicks, command.view, command.name); });
+  changeClicks(project, [&](auto clicks) { return withKey(std::move(clicks), command.view, command.name); });
   return project;
 }
 
@@ -208,7 +209,7 @@ Result<Project> after(Project project, const SwapViews& command) {
   second.view.name = command.other;
   project.views.set(*one, std::move(first));
   project.views.set(*other, std::move(second));
-  changeClicks(project, [&](const Clicks& clicks) { return swapped(clicks, command.view, command.other); });
+  changeClicks(project, [&](auto clicks) { return swapped(std::move(clicks), command.view, command.other); });
   return project;
 }
 

@@ -86,11 +86,21 @@ ProjectView readView(ObjectReader reader) {
   return view;
 }
 
+void readPlaced(ObjectReader placed, skeleton3d::ClickedNode& node) {
+  for (const std::string& view : placed.allKeys()) {
+    const double within_px = placed.number(view.c_str());
+    if (!node.clicks.contains(view)) placed.fault(view, "names a view that the node has no click in");
+    else if (within_px < 0) placed.fault(view, "must not be negative");
+    else node.placed[view] = within_px;
+  }
+}
+
 ProjectNode readNode(ObjectReader reader) {
   ProjectNode node;
   node.node.id = NodeId(static_cast<std::int32_t>(reader.integer("id", 0, kMaximumId)));
   ObjectReader clicks = reader.object("clicks");
   for (const std::string& view : clicks.allKeys()) node.node.clicks[view] = clicks.point(view.c_str());
+  if (reader.has("placed")) readPlaced(reader.object("placed"), node.node);
   node.node.radius = reader.numberIfAny("radius");
   if (node.node.radius && *node.node.radius < 0) reader.fault("radius", "must not be negative");
   node.extras = reader.extras();
@@ -238,6 +248,7 @@ Json nodeJson(const ProjectNode& node) {
   Json clicks = Json::object();
   for (const auto& [view, click] : node.node.clicks) clicks[view] = pointJson(click);
   Json json = {{"id", node.node.id.value}, {"clicks", clicks}};
+  if (!node.node.placed.empty()) json["placed"] = node.node.placed;
   if (node.node.radius) json["radius"] = *node.node.radius;
   addExtras(json, node.extras);
   return json;

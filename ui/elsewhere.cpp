@@ -11,11 +11,6 @@ namespace {
 using document::NodeId;
 using document::Project;
 
-bool isGiven(const Project& project, const std::string& view) {
-  const auto at = document::viewNamed(project, view);
-  return at && project.views[*at].view.camera.model != skeleton3d::CameraModel::Unknown;
-}
-
 /// The clicks in another photo that are nearest along the stem, below a place and above it.
 struct Around {
   const PhotoPoint *below = nullptr, *above = nullptr;
@@ -41,13 +36,9 @@ std::optional<PlaceOnStem> placeWithin(const Project& project, NodeId node) {
 
 }  // namespace
 
-bool mayPlace(const Project& project, const Placed& placed, const std::string& from, const std::string& to) {
-  return isGiven(project, from) && isGiven(project, to) && placed.view(from) != nullptr && placed.view(to) != nullptr;
-}
-
 std::optional<PhotoPoint> placeElsewhere(const Project& project, const Placed& placed, const PlaceOnStem& place, const std::string& from, PhotoPoint at,
                                          const std::string& to) {
-  if (from == to || !mayPlace(project, placed, from, to)) return std::nullopt;
+  if (from == to || placed.view(from) == nullptr || placed.view(to) == nullptr) return std::nullopt;
   const auto [below, above] = clicksAround(project, place, to);
   if (below == nullptr || above == nullptr) return std::nullopt;
   const skeleton3d::Reach scene = placed.scene();
@@ -63,7 +54,7 @@ std::vector<FoundPlace> placesOfWaiting(const Project& project, const Placed& pl
     const auto& [from, at] = *node.clicks.begin();
     for (const document::ProjectView& view : project.views)
       if (const auto there = placeElsewhere(project, placed, *place, from, at, view.view.name)) {
-        found.push_back({node.id, view.view.name, *there});
+        found.push_back({node.id, view.view.name, *there, placed.within_px(from, view.view.name)});
         break;
       }
   }

@@ -1,7 +1,8 @@
 #pragma once
 /// \file
 /// The same node in another photo: where a stem is clicked in both, a node clicked on it in one is, in the other, where its epipolar line
-/// crosses the stem. Such places are computed for nodes that are put into a stem, and for those that wait for their second click.
+/// crosses the stem. Such places are computed for nodes that are put into a stem, and for those that wait for their second click. They are
+/// marked as placed: what cameras are estimated from must not itself follow from them.
 
 #include "document/command.hpp"
 #include "ui/clicking.hpp"
@@ -13,10 +14,6 @@
 
 namespace axil::ui {
 
-/// Whether clicks may follow from the cameras of two views: from given ones. What cameras are estimated from must not itself follow from
-/// them: places that agree with a first guess by construction would outvote the clicks that a person made.
-[[nodiscard]] bool mayPlace(const document::Project& project, const Placed& placed, const std::string& from, const std::string& to);
-
 /// Where a place on a stem, clicked at `at` in `from`, is in `to`; nothing where the stem is not clicked there on both sides of it, or the
 /// lines run too nearly along each other to say.
 [[nodiscard]] std::optional<PhotoPoint> placeElsewhere(const document::Project& project, const Placed& placed, const PlaceOnStem& place, const std::string& from,
@@ -26,6 +23,7 @@ struct FoundPlace {
   document::NodeId node;
   std::string view;
   PhotoPoint at;
+  double within_px = 0;
 };
 /// The places of the nodes that are clicked in one photo alone, each in the first other photo that has one for it.
 [[nodiscard]] std::vector<FoundPlace> placesOfWaiting(const document::Project& project, const Placed& placed);

@@ -33,6 +33,7 @@ Taken nodeFacts(const Panel& panel, const skeleton3d::ClickedNode& node) {
     std::string value = fixed(click->second.px.x, 1) + ", " + fixed(click->second.px.y, 1);
     if (solved != nullptr && solved->reprojection_px.contains(view.view.name)) value += "  (" + fixed(solved->reprojection_px.at(view.view.name), 2) + " px)";
     fact(panel, name.c_str(), value);
+    if (node.placed.contains(view.view.name)) quiet(panel, panel.t("click_placed"));
   }
   if (node.clicks.size() < 2) say(panel, NoticeKind::Warned, panel.t("needs_two"));
   if (solved != nullptr) {

@@ -116,7 +116,7 @@ std::optional<ProposedStem> wholeStem(const Pane& pane, const ClickMeaning& mean
   if (known != nullptr && glm::distance(known->clicks.back().second.px, at.px) < pane.reach()) return *known;
   const skeleton3d::LiveWire* photo = pane.panel.wires.ready(pane.photo->tiles->sharedPhoto());
   auto question = photo == nullptr ? std::nullopt : stemQuestion(pane.panel.project, *placed, *meaning.node, pane.name(), *photo);
-  if (!question || question->nodes.size() < 3 || !mayPlace(pane.panel.project, *placed, question->first.name, pane.name())) return std::nullopt;
+  if (!question || question->nodes.size() < 3) return std::nullopt;
   question->options.endInOther = at;
   return proposedStem(*question);
 }
@@ -127,7 +127,8 @@ void addElsewhere(const Pane& pane, const PlaceOnStem& place, NodeId node, Photo
   if (!placed) return;
   for (const document::ProjectView& view : pane.panel.project.views)
     if (const auto there = placeElsewhere(pane.panel.project, *placed, place, pane.name(), at, view.view.name))
-      step.emplace_back(document::AddClick{node, view.view.name, centred(pane.panel.photos.photoOf(pane.panel.session.openProject(), view).get(), *there)});
+      step.emplace_back(document::PlaceClick{node, view.view.name, centred(pane.panel.photos.photoOf(pane.panel.session.openProject(), view).get(), *there),
+                                             placed->within_px(pane.name(), view.view.name)});
 }
 
 /// A node on a stem's line, on its centre line where there is one.

@@ -48,7 +48,7 @@ void drawPhoto(const Pane& pane) {
 
 void drawSegment(const Pane& pane, const Seen& a, const Seen& b, Colour colour, float width) {
   const ImVec2 from = pane.lens.onScreen(a.at), to = pane.lens.onScreen(b.at);
-  if (!a.clicked || !b.clicked) return dashed(pane.list, from, to, withAlpha(colour, 190), width, pane.panel.px(5));
+  if (a.by == SeenBy::Skeleton || b.by == SeenBy::Skeleton) return dashed(pane.list, from, to, withAlpha(colour, 190), width, pane.panel.px(5));
   pane.list.AddLine(from, to, rgb(0x101010, 130), width + pane.panel.px(1.6f));
   pane.list.AddLine(from, to, colour, width);
 }
@@ -67,8 +67,9 @@ void drawStem(const Pane& pane, const skeleton3d::ClickedStem& stem, bool chosen
     if (!at) continue;
     const ImVec2 s = pane.lens.onScreen(at->at);
     const float r = pane.panel.px(4.2f);
-    if (at->clicked) drawMark(pane.list, markOf(stem.id), s, r, colour);
-    else pane.list.AddCircle(s, r, withAlpha(colour, 200), 16, pane.panel.px(1.3f));
+    if (at->by == SeenBy::Skeleton) pane.list.AddCircle(s, r, withAlpha(colour, 200), 16, pane.panel.px(1.3f));
+    else drawMark(pane.list, markOf(stem.id), s, r, colour);
+    if (at->by == SeenBy::Program) pane.list.AddCircleFilled(s, r * 0.45f, rgb(0x101010, 220), 12);
   }
 }
 
@@ -334,19 +335,20 @@ PhotoLook Pane::look() const {
 std::optional<Seen> seen(const Pane& pane, NodeId id) {
   const auto place = document::nodeWithId(pane.panel.project, id);
   if (!place) return std::nullopt;
-  const auto& clicks = pane.panel.project.nodes[*place].node.clicks;
-  if (const auto click = clicks.find(pane.name()); click != clicks.end()) {
+  const skeleton3d::ClickedNode& node = pane.panel.project.nodes[*place].node;
+  const SeenBy by = node.placed.contains(pane.name()) ? SeenBy::Program : SeenBy::Click;
+  if (const auto click = node.clicks.find(pane.name()); click != node.clicks.end()) {
     const auto& drag = pane.state().drag;
     const bool moves = drag && drag->moved && drag->view == pane.name() && (drag->node == id || pane.state().selection.has(id));
-    if (moves) return Seen{{click->second.px + drag->moved_px()}};
+    if (moves) return Seen{{click->second.px + drag->moved_px()}, by};
     const auto& inSpace = pane.state().plantDrag;
     const skeleton3d::Camera* camera = inSpace && inSpace->moved && inSpace->node == id ? cameraOf(pane.panel, pane.name()) : nullptr;
-    return Seen{{click->second.px + (camera != nullptr ? inSpace->moved_px(*camera) : glm::dvec2(0, 0))}};
+    return Seen{{click->second.px + (camera != nullptr ? inSpace->moved_px(*camera) : glm::dvec2(0, 0))}, by};
   }
   const skeleton3d::Camera* camera = cameraOf(pane.panel, pane.name());
   const skeleton3d::Node* solved = solvedNode(pane.panel, id);
   if (camera == nullptr || solved == nullptr || !skeleton3d::isInFront(*camera, solved->position)) return std::nullopt;
-  return Seen{skeleton3d::project(*camera, solved->position), false};
+  return Seen{skeleton3d::project(*camera, solved->position), SeenBy::Skeleton};
 }
 
 std::array<int, 3> viewsOfPanes(const document::Project& project) {

@@ -39,9 +39,10 @@ struct Pane {
 [[nodiscard]] const skeleton3d::Camera* cameraOf(const Panel& panel, const std::string& view);
 
 /// Where a node is in this photo: as it is being dragged, as it was clicked, or as the skeleton says.
+enum class SeenBy { Click, Program, Skeleton };  ///< a person's click, one that the program placed, where the skeleton has the node
 struct Seen {
   PhotoPoint at;
-  bool clicked = true;
+  SeenBy by = SeenBy::Click;
 };
 [[nodiscard]] std::optional<Seen> seen(const Pane& pane, document::NodeId id);
 

@@ -94,6 +94,13 @@ const skeleton3d::Node* Placed::node(NodeId id) const {
   return found == skeleton->nodes.end() ? nullptr : &*found;
 }
 
+double Placed::within_px(const std::string& from, const std::string& to) const {
+  double miss_px = 0;
+  for (const skeleton3d::CameraReport& report : measured.cameras)
+    if (report.view == from || report.view == to) miss_px = std::max(miss_px, report.rms_px);
+  return 2 * miss_px;
+}
+
 skeleton3d::Reach Placed::reach() const {
   std::vector<PlantPoint> places;
   if (skeleton != nullptr)
@@ -119,7 +126,7 @@ std::optional<StemQuestion> stemQuestion(const Project& project, const Placed& p
   const skeleton3d::View* other = placed.view(view);
   const skeleton3d::View* first = nodes.size() < 2 || other == nullptr ? nullptr : commonView(project, placed, nodes, view);
   if (first == nullptr) return std::nullopt;
-  StemQuestion question{*first, *other, {}, otherPhoto, placed.reach(), {}, segmentsIn(project, view)};
+  StemQuestion question{*first, *other, {}, otherPhoto, placed.reach(), {}, segmentsIn(project, view), placed.within_px(first->name, view)};
   for (const NodeId node : nodes) question.nodes.emplace_back(node, *document::clickOf(project, node, first->name));
   question.options.startInOther = *document::clickOf(project, nodes.front(), view);
   if (const skeleton3d::Node* base = placed.node(nodes.front())) question.options.base = base->position;
@@ -129,7 +136,7 @@ std::optional<StemQuestion> stemQuestion(const Project& project, const Placed& p
 std::optional<ProposedStem> proposedStem(const StemQuestion& question) {
   const auto between = skeleton3d::tracedInOtherView(question.first, pathThrough(question.nodes), question.other, question.otherPhoto, question.reach, question.options);
   if (!between || between->line.empty() || between->confidence < kLeastConfidence) return std::nullopt;
-  ProposedStem proposed{question.other.name, {}, {}, between->line.back().at, between->confidence};
+  ProposedStem proposed{question.other.name, {}, {}, between->line.back().at, between->confidence, question.within_px};
   std::size_t place = 0;
   for (std::size_t i = 1; i < question.nodes.size(); ++i) {
     place = placeOf(between->line, place, question.nodes[i].second);
@@ -156,7 +163,9 @@ std::vector<ProposedStem> agreeing(std::span<const StemQuestion> questions) {
 
 document::Step stepOf(const ProposedStem& proposed) {
   document::Step step;
-  for (const auto& [node, at] : proposed.clicks) step.emplace_back(document::AddClick{node, proposed.view, at});
+  for (const auto& [node, at] : proposed.clicks) step.emplace_back(document::PlaceClick{node, proposed.view, at, proposed.within_px});
+  const auto& [tip, at] = proposed.clicks.back();
+  step.back() = document::AddClick{tip, proposed.view, at};
   return step;
 }
 

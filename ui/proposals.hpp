@@ -25,6 +25,7 @@ struct ProposedStem {
   std::vector<PhotoPoint> line;                                 ///< the way through them
   PlantPoint tip;
   double confidence = 0;                                        ///< 0 to 1
+  double within_px = 0;                                         ///< how far off the clicks before the tip's may be
 };
 
 /// All that a proposal follows from: one stem's last nodes, clicked in `first` and not in `other`.
@@ -36,6 +37,7 @@ struct StemQuestion {
   skeleton3d::Reach reach;
   skeleton3d::BetweenOptions options;
   std::vector<std::pair<PhotoPoint, PhotoPoint>> taken;        ///< segments of other stems in `other`: what is there is not proposed again
+  double within_px = 0;                                        ///< see Placed
 };
 
 /// What has been measured so far: cameras by view, and where the nodes are.
@@ -45,6 +47,9 @@ struct Placed {
 
   [[nodiscard]] const skeleton3d::View* view(const std::string& name) const;  ///< null while its camera is not known
   [[nodiscard]] const skeleton3d::Node* node(document::NodeId id) const;
+  /// How far off a click may be that follows from the cameras of two views: nothing where they are given, twice as far as clicks miss where
+  /// they are estimated.
+  [[nodiscard]] double within_px(const std::string& from, const std::string& to) const;
   [[nodiscard]] skeleton3d::Reach reach() const;                                ///< where the plant may be: about its nodes, before those all that the photos show
   [[nodiscard]] skeleton3d::Reach scene() const;                                ///< all that the photos show, about the origin
 };

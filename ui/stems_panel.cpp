@@ -42,7 +42,7 @@ Taken placeWaiting(const Panel& panel) {
   Step step;
   for (const FoundPlace& place : placesOfWaiting(panel.project, *placed)) {
     const document::ProjectView& view = panel.project.views[*document::viewNamed(panel.project, place.view)];
-    step.emplace_back(document::AddClick{place.node, place.view, centred(panel.photos.photoOf(panel.session.openProject(), view).get(), place.at)});
+    step.emplace_back(document::PlaceClick{place.node, place.view, centred(panel.photos.photoOf(panel.session.openProject(), view).get(), place.at), place.within_px});
   }
   return step.empty() ? std::nullopt : std::optional(std::move(step));
 }

@@ -69,6 +69,24 @@ TEST(Chain, AllPhotosCountOnceTheyHaveEnoughClicks) {
   for (const std::string& note : measured->notes) EXPECT_EQ(note.find("left out"), std::string::npos) << note;
 }
 
+TEST(Chain, CamerasAreNotEstimatedFromPlacedClicks) {
+  OpenProject off = photographed({"front", "right", "top"});
+  OpenProject without = off;
+  ProjectNode node = off.project.nodes[3];
+  without.project.nodes.set(3, [&] {
+    ProjectNode less = node;
+    less.node.clicks.erase("top");
+    return less;
+  }());
+  node.node.clicks.at("top").px += glm::dvec2(12, -9);
+  node.node.placed["top"] = 0;
+  off.project.nodes.set(3, node);
+  const auto placed = document::measured(off, {}), left = document::measured(without, {});
+  ASSERT_TRUE(placed && left);
+  EXPECT_TRUE(placed->suspects.empty());
+  EXPECT_EQ(placed->views[2].camera, left->views[2].camera);
+}
+
 TEST(Chain, ANodeThatOnlyALeftOutPhotoShowsIsStillAskedFor) {
   OpenProject open = photographed({"front", "right"});
   ProjectNode lone;

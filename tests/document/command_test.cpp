@@ -221,6 +221,20 @@ TEST(NodeCommands, ClicksAreAddedMovedAndRemoved) {
   EXPECT_FALSE(document::apply(plant(), MoveClick{NodeId(1), "front", {{std::numeric_limits<double>::quiet_NaN(), 0}}}));
 }
 
+TEST(NodeCommands, PlacedClicksAreMarkedUntilAPersonMovesThem) {
+  using Placed = std::map<std::string, double>;
+  const std::string place = "place_click 1 right 5 6 2\n";
+  EXPECT_EQ(node(afterLines(place), 1).clicks.at("right"), (PhotoPoint{{5, 6}}));
+  EXPECT_EQ(node(afterLines(place), 1).placed, (Placed{{"right", 2}}));
+  EXPECT_EQ(node(afterLines(place + "move_click 1 right 5 6"), 1).placed, Placed{});
+  EXPECT_EQ(afterLines(place + "remove_click 1 right"), plant());
+  EXPECT_EQ(node(afterLines(place + "rename_view right side"), 1).placed, (Placed{{"side", 2}}));
+  EXPECT_EQ(node(afterLines(place + "swap_views front right"), 1).placed, (Placed{{"front", 2}}));
+  EXPECT_EQ(node(afterLines(place + "remove_view right"), 1).placed, Placed{});
+  EXPECT_EQ(refusalOf("place_click 1 front 5 6 0"), "node 1 has a click in 'front' already; move that one");
+  EXPECT_EQ(refusalOf("place_click 1 right 5 6 -1"), "how far off the click may be is -1; it must be from 0 to 1e+06");
+}
+
 TEST(NodeCommands, NewNodesNeedAnIdOfTheirOwn) {
   EXPECT_EQ(nextNodeId(plant()), NodeId(9));
   EXPECT_EQ(refusalOf("add_node 3 front 1 1"), "there is a node 3 already; the next free id is 9");

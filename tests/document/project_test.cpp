@@ -15,7 +15,7 @@ const char* const kProject = R"({ "axil": 1, "name": "lantana", "unit": "m", "se
       "camera": { "model": "perspective", "focal_px": [2778, 2777], "centre_px": [600, 800], "distortion": [0.1, 0, 0, 0, 0], "maker": "x",
                   "rotation": [[1,0,0],[0,-1,0],[0,0,-1]], "translation": [0, 0.4, 2.0] },
       "origin_px": [602, 1490], "scale": { "from_px": [100, 1500], "to_px": [100, 900], "length": 0.30 } } ],
-  "nodes": [ { "id": 1, "clicks": { "front": [602.1, 1490.0], "right": [598.3, 1488.7] }, "radius": 0.004, "colour": "red" } ],
+  "nodes": [ { "id": 1, "clicks": { "front": [602.1, 1490.0], "right": [598.3, 1488.7] }, "placed": { "right": 1.5 }, "radius": 0.004, "colour": "red" } ],
   "stems": [ { "id": 1, "nodes": [1, 2, 3], "note": "main" } ],
   "leaves": [ { "stem": 1, "arrangement": "decussate", "nodes": 4, "angle_deg": 55.1, "roll_deg": 0, "length": 0.06, "shape": "ovate", "colour": 3 } ] })";
 
@@ -40,6 +40,7 @@ TEST(Project, ReadsWhatTheFileSays) {
   EXPECT_EQ(project->views[0].view.camera.rotation[1][1], -1);
   EXPECT_EQ(project->views[0].view.camera.focal_px->y, 2777);
   EXPECT_EQ(project->nodes[0].node.clicks.at("right").px.x, 598.3);
+  EXPECT_EQ(project->nodes[0].node.placed, (std::map<std::string, double>{{"right", 1.5}}));
   EXPECT_NEAR(project->leaves[0].arrangement.angle->degrees(), 55.1, 1e-12);
 }
 
@@ -61,6 +62,8 @@ TEST(Project, KeysItDoesNotKnowAreKeptAtEveryPlace) {
 TEST(Project, EveryWrongValueIsNamedByItsPath) {
   EXPECT_EQ(faultAfter("[602.1, 1490.0]", "[602.1, \"x\"]"), "nodes[0].clicks.front[1] must be a number, not a text");
   EXPECT_EQ(faultAfter("[602.1, 1490.0]", "[602.1]"), "nodes[0].clicks.front must be a list of 2 numbers");
+  EXPECT_EQ(faultAfter("{ \"right\": 1.5 }", "{ \"top\": 1.5 }"), "nodes[0].placed.top names a view that the node has no click in");
+  EXPECT_EQ(faultAfter("{ \"right\": 1.5 }", "{ \"right\": -1 }"), "nodes[0].placed.right must not be negative");
   EXPECT_EQ(faultAfter("\"id\": 1, \"clicks\"", "\"clicks\""), "nodes[0].id is missing");
   EXPECT_EQ(faultAfter("\"nodes\": [1, 2, 3]", "\"nodes\": [1, 2.5, 3]"), "stems[0].nodes[1] must be a whole number from 0 to 2147483647");
   EXPECT_EQ(faultAfter("perspective", "fisheye"), "views[0].camera.model is 'fisheye'; it must be orthographic, perspective or unknown");

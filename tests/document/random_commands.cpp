@@ -128,6 +128,7 @@ const Make kMakers[] = {
     [](Rng& r) { return filled(r, &AddNode::node, &AddNode::view, &AddNode::at); },
     [](Rng& r) { return filled(r, &RemoveNodes::nodes); },
     [](Rng& r) { return filled(r, &AddClick::node, &AddClick::view, &AddClick::at); },
+    [](Rng& r) { return filled(r, &PlaceClick::node, &PlaceClick::view, &PlaceClick::at, &PlaceClick::within_px); },
     [](Rng& r) { return filled(r, &MoveClick::node, &MoveClick::view, &MoveClick::at); },
     [](Rng& r) { return filled(r, &RemoveClick::node, &RemoveClick::view); },
     [](Rng& r) { return filled(r, &SetRadius::node, &SetRadius::radius); },
@@ -296,7 +297,12 @@ Command changeView(const There& there) {
 Command changeClick(const There& there) {
   switch (there.rng.below(6)) {
     case 0: return with(there, AddClick(), &AddClick::node, &AddClick::view, &AddClick::at);
-    case 1: return with(there, AddClick(), &AddClick::node, &AddClick::view, &AddClick::at);
+    case 1: {
+      const NodeId node = there.node();
+      const std::string view = there.view();
+      const PhotoPoint at = there.point();
+      return PlaceClick{node, view, at, there.rng.uniform(-0.5, 8)};
+    }
     case 2: return with(there, MoveClick(), &MoveClick::node, &MoveClick::view, &MoveClick::at);
     case 3: {
       const NodeId node = there.node();

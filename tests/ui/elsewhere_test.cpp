@@ -54,16 +54,14 @@ TEST(Elsewhere, TipsWaitForTheirClick) {
   EXPECT_TRUE(placesOfWaiting(project, Placed{*measured}).empty());
 }
 
-TEST(Elsewhere, NothingIsPlacedByCamerasThatTheClicksAreToTell) {
-  document::Project project = withFrontAlone({3});
-  const auto measured = document::measured({project, kFolder}, {});
+TEST(Elsewhere, WhatEstimatedCamerasPlaceIsAsFarOffAsTheirClicksMiss) {
+  const document::Project project = withFrontAlone({withFrontAlone({}).stems[0].stem.nodes[2].value});
+  auto measured = document::measured({project, kFolder}, {});
   ASSERT_TRUE(measured);
-  ASSERT_TRUE(mayPlace(project, Placed{*measured}, "front", "right"));
-  document::ProjectView view = project.views[0];
-  view.view.camera.model = skeleton3d::CameraModel::Unknown;
-  project.views.set(0, view);
-  EXPECT_FALSE(mayPlace(project, Placed{*measured}, "front", "right"));
-  EXPECT_TRUE(placesOfWaiting(project, Placed{*measured}).empty());
+  ASSERT_EQ(placesOfWaiting(project, Placed{*measured}).size(), 1u);
+  EXPECT_EQ(placesOfWaiting(project, Placed{*measured})[0].within_px, 0);
+  measured->cameras = {{.view = "front", .turned = {}, .rms_px = 1.5}, {.view = "right", .turned = {}, .rms_px = 2}, {.view = "top", .turned = {}, .rms_px = 9}};
+  EXPECT_EQ(placesOfWaiting(project, Placed{*measured})[0].within_px, 4);
 }
 
 }  // namespace
