@@ -55,10 +55,10 @@ void ParagraphReader::noteStranger(std::size_t i) {
   scope_.organInSentence = scope_.organInSentence && comma;
 }
 
-// 葉痕大，倒卵形; "leaf scars broad, reniform": statements about what the vocabulary knows as a place.
+// 葉痕大，倒卵形; "leaf scars broad, reniform"; 橫切面半圓形: statements about what the vocabulary knows as a place.
 void ParagraphReader::noteScar(std::size_t i) {
   const bool opens = i == 0 || tokens_[i - 1].kind == TokenKind::Sign;
-  const bool scar = isAny(found_[i].end - 1, {"痕", "scar", "scars"});
+  const bool scar = isAny(found_[i].end - 1, {"痕", "面", "scar", "scars", "section"});
   if (opens && scar) scope_.stranger = true;
 }
 

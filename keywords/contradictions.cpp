@@ -53,7 +53,7 @@ std::string said(const Trait& trait) { return "\"" + trait.text + "\""; }
 
 bool sizesClash(const Trait& a, const Trait& b) {
   const bool measured = isOneOf(a.property, {"length", "width", "height", "diameter", "count", "merosity"});
-  if (!measured || !a.low || !b.low || a.unit != b.unit || a.unit == "per fruit") return false;
+  if (!measured || !a.low || !b.low || a.unit != b.unit || a.unit == "per fruit" || a.organ == "vein") return false;  // each glume and each leaf has its veins
   const double aLow = a.minimum.value_or(*a.low), aHigh = a.maximum.value_or(*a.high);
   const double bLow = b.minimum.value_or(*b.low), bHigh = b.maximum.value_or(*b.high);
   return aHigh < bLow || bHigh < aLow;

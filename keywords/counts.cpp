@@ -28,6 +28,7 @@ constexpr CountedWord countedWords[] = {
     {"loculed", "ovary", "locule", ""}, {"celled", "ovary", "locule", ""}, {"loculate", "ovary", "locule", ""}, {"valved", "fruit", "valve", ""},
     {"foliolate", "leaflet", "", ""}, {"foliate", "leaflet", "", ""},      {"petaled", "petal", "", ""},    {"petalled", "petal", "", ""},
     {"leaved", "leaf", "", ""},       {"rayed", "ray floret", "", ""},     {"paired", "", "", "pairs"},     {"jugate", "", "", "pairs"},
+    {"awned", "awn", "", ""},
     {"jug", "", "", "pairs"},         {"winged", "", "wing", ""},       {"ribbed", "", "rib", ""},
 };
 
@@ -89,7 +90,7 @@ std::size_t ParagraphReader::readLeavesPerNode(std::size_t i, const NumberRange&
     return range.end;
   }
   std::size_t at = range.end;
-  while (isAny(at, {"枚", "片", "張", "张", "-", "針", "针"}) || (at < tokens_.size() && nounAt(at) != nullptr && nounAt(at)->name == "leaf")) at = std::max(at + 1, found_[at].end);
+  while (isAny(at, {"枚", "片", "張", "张", "-", "針", "针", "呈"}) || (at < tokens_.size() && nounAt(at) != nullptr && nounAt(at)->name == "leaf")) at = std::max(at + 1, found_[at].end);
   const std::size_t perNode = afterPerNode(at);
   const bool othersPerNode = others && perNode != 0 && at == range.end;  // "branches 2 per node"
   if ((perNode == 0 && !isGathered(at)) || !(othersPerNode || leafIsMeant(range.end, at))) return 0;
@@ -171,6 +172,9 @@ ParagraphReader::Counted ParagraphReader::countedBy(std::size_t i) const {
   if (isAny(i, {"裂"})) return {"", "lobe", "", i + 1};
   if (isAny(i, {"淺", "浅", "深", "中", "全"}) && is(i + 1, "裂")) return {"", "lobe", "", i + 2};
   if (isAny(i, {"淺", "浅", "粗", "細", "细"}) && isAny(i + 1, {"齒", "齿"}) && is(i + 2, "裂")) return {"", "tooth", "", i + 3};
+  // 具1-3鈍齒, 有粗鋸齒5-8, 具二縱稜: the word behind is read as a term too.
+  if (isAny(i, {"鈍", "钝", "尖", "銳", "锐", "粗", "細", "细", "圓", "圆", "大", "小", "疏"}) && (isAny(i + 1, {"齒", "齿"}) || (isAny(i + 1, {"鋸", "锯"}) && isAny(i + 2, {"齒", "齿"})))) return {"", "tooth", "", i};
+  if (isAny(i, {"縱", "纵"}) && isAny(i + 1, {"稜", "棱", "肋", "脊"})) return {"", "rib", "", i};
   if (isAny(i, {"室"})) return {"ovary", "locule", "", i + 1};
   if (isAny(i, {"齒", "齿"}) && !isAny(i + 1, {"狀", "状"})) return {"", "tooth", "", i + 1};
   if (isAny(i, {"脈", "脉"})) return {"vein", "", "", i + 1};
@@ -179,12 +183,28 @@ ParagraphReader::Counted ParagraphReader::countedBy(std::size_t i) const {
   return {};
 }
 
+// 每側具3-8個刺狀粗鋸齒: the teeth are named behind a counter and adjectives, and are read as a term too.
+ParagraphReader::Counted ParagraphReader::teethBehindCounter(std::size_t i) const {
+  if (!isAny(i, {"個", "个", "枚", "對", "对"})) return {};
+  const auto areTeeth = [&](std::size_t k) { return found_[k].as("margin") != nullptr && isAny(found_[k].end - 1, {"齒", "齿"}); };
+  std::size_t at = i + 1;
+  while (at < i + 7 && at < tokens_.size() && !areTeeth(at) && (isAny(at, {"小", "大", "粗", "細", "细", "尖", "鈍", "钝", "的", "狀", "状"}) || isAny(at + 1, {"狀", "状"}))) ++at;
+  return at < tokens_.size() && areTeeth(at) ? Counted{"", "tooth", isAny(i, {"對", "对"}) ? "pairs" : "", i + 1} : Counted{};
+}
+
 std::size_t ParagraphReader::readCountedWord(std::size_t i, const NumberRange& range) {
-  const Counted counted = countedBy(range.end);
+  const std::size_t word = afterSharing(range.end);
+  Counted counted = countedBy(word);
+  if (counted.end == 0) counted = teethBehindCounter(range.end);
   if (counted.end == 0) return 0;
+  if (word != range.end) counted.end = range.end + 1;
   const Concept* attributive = counted.organ.empty() ? organAfter(counted.end) : nullptr;
   if (counted.organ.empty() && attributive == nullptr && (scope_.organ == nullptr || !scope_.organInSentence)) return 0;
-  const std::string organ = !counted.organ.empty() ? counted.organ : attributive != nullptr ? attributive->name : scope_.organ->name;
+  // 葉3裂（幼樹偶5裂）: the leaf's.
+  const bool aside = attributive == nullptr && scope_.organ != nullptr && scope_.organ->name == "plant" && counted.piece == "lobe";
+  const Concept* subject = aside && !outside_.empty() ? outside_.back().organ : scope_.organ;
+  if (aside && (subject == nullptr || subject->name == "plant")) return 0;
+  const std::string organ = !counted.organ.empty() ? counted.organ : attributive != nullptr ? attributive->name : subject->name;
   const bool apexCut = counted.piece == "lobe" && range.low == 2 && range.high == 2 && attributive == nullptr && scope_.place != nullptr && scope_.place->name == "apex";
   if (apexCut && !isNegated(i)) {  // "apex 2-lobed", 先端二深裂
     Trait trait = traitAt(i, counted.end, organ, "apex");
@@ -199,7 +219,7 @@ std::size_t ParagraphReader::readCountedWord(std::size_t i, const NumberRange& r
     const std::string owner = isMember || cellsOfOvary ? scope_.organ->name : organ;
     const bool opens = scope_.organEnd > 1 && !isAny(scope_.organEnd - 2, {"核", "漿", "浆", "堅", "坚", "瘦"});
     const bool valves = owner == "fruit" && counted.piece == "lobe" && isHan(counted.end - 1) && opens;  // 蒴果三裂
-    addCount(i, counted.end, owner, valves ? "valve" : counted.piece, range, counted.unit);
+    addCount(i, counted.end, owner, valves ? "valve" : counted.piece, range, counted.unit.empty() && counted.piece == "tooth" ? unitOfEach(i) : counted.unit);
     evidence_ += 1;
     if (counted.piece == "lobe" && !valves) addLobedShape(i, counted.end, range);
     if (counted.organ == "leaflet") organSeen_ = true;
@@ -232,7 +252,7 @@ void ParagraphReader::addLobedShape(std::size_t i, std::size_t end, const Number
 }
 
 bool ParagraphReader::isWordWithNumber(std::size_t i) const {
-  return (is(i, "-") && i + 1 < tokens_.size() && tokens_[i + 1].kind == TokenKind::Word) || isAny(i, {"*", "/", "%", "°", "裂", "出", "脈", "脉", "times", "倍", "回", "月", "年", "數", "数", "x", "層", "层", "列", "輪", "轮", "系", "series", "rows", "ranks", "tiers", "layers", "cycles", "型", "叉", "側", "侧", "面", "端", "邊", "边", "旁", "行", "圈", "體", "体", "強", "强"}) ||
+  return (is(i, "-") && i + 1 < tokens_.size() && tokens_[i + 1].kind == TokenKind::Word) || isAny(i, {"*", "/", "%", "°", "裂", "出", "脈", "脉", "times", "倍", "回", "月", "年", "數", "数", "x", "層", "层", "列", "輪", "轮", "系", "岔", "series", "row", "rows", "rank", "ranks", "tiers", "layers", "cycles", "型", "叉", "側", "侧", "面", "端", "邊", "边", "旁", "行", "圈", "體", "体", "強", "强"}) ||
          (i < found_.size() && found_[i].conceptAs("dimension") != nullptr && !isHan(i));
 }
 
@@ -360,13 +380,14 @@ std::size_t ParagraphReader::readDivisions(std::size_t i) {
 std::size_t ParagraphReader::readAbsent(std::size_t i) {
   if (!isAny(i, {"absent", "wanting", "lacking", "none", "obsolete", "缺", "缺如", "不存在"}) || scope_.organ == nullptr || !scope_.organInSentence) return 0;
   const std::size_t end = is(i, "缺") && is(i + 1, "如") ? i + 2 : i + 1;
-  const bool stops = end >= tokens_.size() || tokens_[end].kind == TokenKind::Sign;
+  const bool stops = end >= tokens_.size() || tokens_[end].kind == TokenKind::Sign || isAny(end, {"or", "或"});
   const bool counted = isOneOf(scope_.organ->name, {"petal", "sepal", "tepal", "stipule", "bract", "bracteole", "ray floret", "stamen", "tendril", "septum", "epicalyx", "pappus", "thorn", "awn"});
   if (!stops || !counted || scope_.piece != nullptr || i != scope_.organEnd || isNegated(i)) return 0;
   Trait trait = traitAt(i, end, scope_.organ->name, "count");
   trait.low = trait.high = 0;
   trait.which = scope_.which;
   evidence_ += 0.5;
+  lastCount_ = {end, trait.organ, {}, {}};
   keep(std::move(trait), false);
   return end;
 }

@@ -274,7 +274,9 @@ bool ParagraphReader::isAboutAPlant() const {
   const bool manyTerms = strongTerms_ >= 3 && foreignSeen_.empty() && share >= bodyShare;
   if (!organSeen_ && !manyTerms) return bodySeen_ && foreignSeen_.empty() && share >= bodyShare;
   if (share >= leastShare || (share >= proseShare && evidence_ >= muchEvidence)) return true;
-  return foreignSeen_.empty() && strongTerms_ >= 1 && evidence_ >= enoughInClauses && !result_.traits.empty() && knownShare({tellingClauses()}) >= leastClauseShare;
+  if (!foreignSeen_.empty() || result_.traits.empty()) return false;
+  const double clauseShare = knownShare({tellingClauses()});
+  return (strongTerms_ >= 1 && evidence_ >= enoughInClauses && clauseShare >= leastClauseShare) || (strongSeen_ && !pronounSeen_ && evidence_ >= enoughEvidence && clauseShare >= fragmentShare);
 }
 
 // ---- words that were seen but not understood

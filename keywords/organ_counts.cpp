@@ -26,7 +26,8 @@ std::size_t ParagraphReader::readCountOfOrganBefore(std::size_t i, const NumberR
   const bool alone = isHan(range.end) && counter.end > range.end && counter.unit.empty() && scope_.subjectInClause && before > 0 && isAny(before - 1, {",", "，"}) &&
                      (counter.end >= tokens_.size() || tokens_[counter.end].kind == TokenKind::Sign);
   // "Leaves all basal, 6-12, reniform", "spikes 2-6 cm, 2-4 together".
-  const bool between = !isHan(i) && scope_.subjectInClause && before == i && i > 0 && is(i - 1, ",") && range.low < range.high && scope_.piece == nullptr && last_.kept && last_.end + 1 == i && range.end < tokens_.size() && is(range.end, ",");
+  const bool between = !isHan(i) && scope_.subjectInClause && before == i && i > 0 && is(i - 1, ",") && range.low < range.high && scope_.piece == nullptr && last_.kept && last_.end + 1 == i && range.end < tokens_.size() &&
+                       (is(range.end, ",") || (last_.category != nullptr && last_.category->property == "position" && isAny(range.end, {";", "."})));
   const bool gathered = !isHan(i) && scope_.subjectInClause && is(range.end, "together") && isOneOf(noun.name, {"inflorescence", "flower", "fruit"});
   if (between || gathered) {
     addCount(i, range.end, noun.name, "", range, "");
@@ -34,7 +35,8 @@ std::size_t ParagraphReader::readCountOfOrganBefore(std::size_t i, const NumberR
   }
   if (!isCountable(noun) || (!alone && before != scope_.organEnd && !orSolitary && !together && !forEach && !isBehindRows(before))) return 0;
   if (scope_.place != nullptr && !alone) return 0;
-  const Measure measure = measureAt(range.end);
+  const bool inBrackets = i > 0 && is(i - 1, "(") && is(range.end, ")") && isAny(range.end + 1, {"pairs", "pair", "對", "对"});  // "(11-16) pairs"
+  const Measure measure = measureAt(inBrackets ? range.end + 1 : range.end);
   const Concept* next = nounAt(measure.end);
   // 花八仙, 主根一說: a numeral inside other words counts nothing.
   const bool endsWord = !isHan(i) || measure.end > range.end || !isHan(range.end) || next != nullptr || hasTraitMeaning(range.end) || isAny(range.end, {"或", "至", "及", "和", "簇", "束"});
@@ -61,6 +63,10 @@ std::size_t ParagraphReader::afterAdjectives(std::size_t from) const {
   for (std::size_t at = from; at < tokens_.size() && at < from + most;) {
     if (nounAt(at) != nullptr) return at;
     if (isHan(from) != isHan(at) && tokens_[at].kind != TokenKind::Sign) return from;
+    if (isHan(at) && found_[at].conceptAs("organ") != nullptr && isAny(found_[at].end, {"狀", "状"})) {  // 4枚花瓣狀總苞片
+      at = found_[at].end + 1;
+      continue;
+    }
     const bool joins = isAny(at, {"的", "之", "-"}) || (is(at, ",") && at > from && !isHan(from));
     if (hasTraitMeaning(at) || (!isHan(at) && found_[at].conceptAs("which") != nullptr)) at = found_[at].end;
     else if (joins || looksAdjectival(at) || !qualifierOf(tokens_[at].text).empty() || isAny(at, {"大", "小", "細", "细", "厚", "薄", "斜"})) ++at;

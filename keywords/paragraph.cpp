@@ -64,7 +64,8 @@ std::size_t ParagraphReader::step(std::size_t i) {
   if (const std::size_t end = readAbsent(i)) return end;
   const Found& f = found_[i];
   if (!f) return i + 1;
-  if (f.conceptAs("foreign") != nullptr) weighForeign(f);
+  const bool ofNumber = i > 1 && is(i - 1, "-") && tokens_[i - 2].kind == TokenKind::Number;  // "16-29-jug"
+  if (f.conceptAs("foreign") != nullptr && !ofNumber) weighForeign(f);
   if (f.conceptAs("stop") != nullptr) noteScar(i);
   if (f.conceptAs("which") != nullptr && f.as("organ") == nullptr) noteWhich(i);
   if (f.conceptAs("organ") != nullptr) noteNoun(i);

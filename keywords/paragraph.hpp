@@ -98,6 +98,7 @@ class ParagraphReader {
   [[nodiscard]] bool isBranchNoun(std::size_t i) const;
   [[nodiscard]] bool isPlantNoun(std::size_t i) const;
   [[nodiscard]] bool isFlowerSpokenOf() const;
+  [[nodiscard]] bool isLocative(std::size_t i) const;
   [[nodiscard]] bool isPlaceOnly(std::size_t i) const;
   [[nodiscard]] bool isGoal(std::size_t i) const;
   [[nodiscard]] bool isOfPlaceBefore(std::size_t i) const;
@@ -116,6 +117,7 @@ class ParagraphReader {
   [[nodiscard]] const Concept& stalkOf(const Concept& stalk) const;
   [[nodiscard]] const Concept& stipeOf(const Concept& stipe) const;
   [[nodiscard]] std::size_t afterExcept(std::size_t i) const;
+  [[nodiscard]] const Concept* bladeOwner(std::size_t i) const;
   void noteNoun(std::size_t i);
   [[nodiscard]] bool isNamedAgain(std::size_t i, const Concept& organ) const;
   void noteOrgan(std::size_t i, const Concept& organ);
@@ -136,6 +138,7 @@ class ParagraphReader {
   [[nodiscard]] const Concept* organAfter(std::size_t end) const;
   [[nodiscard]] bool isOfAnotherOrgan(const Category& category, const Concept* organ, bool named) const;
   [[nodiscard]] bool isAboutHairs(std::size_t end) const;
+  [[nodiscard]] bool isBeforeStrangeNoun(std::size_t end) const;
   [[nodiscard]] bool isPredicateBasal(std::size_t i) const;
   [[nodiscard]] bool isAboutTheUnnamed(std::size_t i) const;
   [[nodiscard]] bool speaksAsTerm(std::size_t i) const;
@@ -165,12 +168,21 @@ class ParagraphReader {
   void quote(Trait& trait, std::size_t first, std::size_t end) const;
   void keep(Trait trait, bool attributive);
 
+  // elisions.cpp
+  [[nodiscard]] std::size_t afterSharing(std::size_t end) const;
+  void readElidedPinnate(std::size_t i, const LastTerm& now);
+  void readElidedCut(std::size_t i, const LastTerm& now);
+  bool readTernate(std::size_t i);
+  [[nodiscard]] bool isMannerOfAnother(std::size_t i, std::string_view value) const;
+  void countVeins(std::size_t i);
+
   // counts.cpp
   [[nodiscard]] bool isGathered(std::size_t i) const;
   [[nodiscard]] std::size_t afterPerNode(std::size_t i) const;
   [[nodiscard]] bool leafIsMeant(std::size_t from, std::size_t to) const;
   [[nodiscard]] Measure measureAt(std::size_t i) const;
   [[nodiscard]] Counted countedBy(std::size_t i) const;
+  [[nodiscard]] Counted teethBehindCounter(std::size_t i) const;
   [[nodiscard]] bool isWordWithNumber(std::size_t i) const;
   [[nodiscard]] std::size_t beforeCount(std::size_t i) const;
   std::size_t readCount(std::size_t i);
@@ -197,6 +209,7 @@ class ParagraphReader {
   std::size_t readSizes(std::size_t i);
   [[nodiscard]] const Concept* measuredOrgan(const Size& size, const Concept* subject) const;
   std::size_t readAngle(std::size_t i);
+  [[nodiscard]] const Concept* bladeNamedLast() const;
   [[nodiscard]] const Concept* dimensionOfOrganWord() const;
 
   // evidence.cpp
@@ -243,6 +256,7 @@ class ParagraphReader {
   std::string sizeQualifier_;      // how it was meant
   std::size_t placeOnlyEnd_ = 0;   // where the last organ ended that was only named to place or compare another
   bool plantInSentence_ = false;
+  std::size_t sentenceBegin_ = 0;
   bool plantSeen_ = false;  // a life form, a duration of the whole
   std::map<const Concept*, std::size_t> namedAt_;      // where each organ was named last
   std::map<const Concept*, std::size_t> subjectAt_;    // and where not only to place or compare another

@@ -250,11 +250,34 @@ std::string unitOfNext(const Tokens& tokens, const std::vector<Found>& found, st
   return isInchRatherThanIn(tokens, found, range->end, unit->end) ? unit->name : std::string();
 }
 
+// "3-10（多為5-8）公分": what is usual within the range, between the numbers and their unit. The token after it.
+std::size_t afterUsual(const Tokens& tokens, std::size_t at) {
+  constexpr std::size_t longest = 10;
+  if (!isOpen(tokens, at) || at + 1 >= tokens.size()) return at;
+  if (qualifierOf(tokens[at + 1].text) != "usually" && !isAny(tokens, at + 1, {"mean", "average", "averaging", "通", "平"})) return at;
+  for (std::size_t next = at + 2; next < tokens.size() && next < at + longest; ++next)
+    if (isClose(tokens, next)) return next + 1;
+  return at;
+}
+
+// "8-16公分（稀達25公分）", "5-8 cm (rarely to 12 cm)": the exception with a unit of its own.
+void takeRareMaximum(const Tokens& tokens, const std::vector<Found>& found, NumberRange& range, const std::string& unit, std::size_t& end) {
+  if (!isOpen(tokens, end)) return;
+  std::size_t at = end + 1;
+  while (isAny(tokens, at, {"可", "達", "达", "長", "长", "至", "to", "up", "-"}) || (at < tokens.size() && isOneOf(qualifierOf(tokens[at].text), {"rarely", "sometimes"}))) ++at;
+  const auto maximum = at > end + 1 ? numberAt(tokens, at) : std::nullopt;
+  if (!maximum || maximum->value <= range.high) return;
+  const auto same = namedAt(found, maximum->end, "unit");
+  if (!same || same->name != unit || !isClose(tokens, same->end)) return;
+  range.maximum = maximum->value;
+  end = same->end + 1;
+}
+
 // A range, its unit and the word after it, as far as they stand.
 std::optional<Measured> measuredAt(const Tokens& tokens, const std::vector<Found>& found, std::size_t at) {
   const std::optional<NumberRange> range = rangeAt(tokens, at);
   if (!range) return std::nullopt;
-  Measured m{*range, {}, {}, range->end};
+  Measured m{*range, {}, {}, afterUsual(tokens, range->end)};
   const std::size_t unitAt = is(tokens, m.end, "-") && namedAt(found, m.end + 1, "unit") ? m.end + 1 : m.end;  // "a 3-cm-long blade"
   const auto unit = namedAt(found, unitAt, "unit");
   if (unit && isInchRatherThanIn(tokens, found, unitAt, unit->end)) {
@@ -263,6 +286,7 @@ std::optional<Measured> measuredAt(const Tokens& tokens, const std::vector<Found
     takeUpperWithUnit(tokens, found, m.range, m.unit, m.end);
     // "5-8 cm (-12)": the exception behind the unit.
     if (!m.range.maximum) m.range.maximum = takeMaximum(tokens, m.end, m.range.high);
+    if (!m.range.maximum) takeRareMaximum(tokens, found, m.range, m.unit, m.end);
     m.dimension = takeDimension(tokens, found, m.end);
     const auto second = is(tokens, m.end, "and") && !m.dimension.empty() ? namedAt(found, m.end + 1, "dimension") : std::nullopt;
     if (second && !numberAt(tokens, second->end)) {
@@ -405,6 +429,11 @@ Lead leadBefore(const Tokens& tokens, const std::vector<Found>& found, std::size
     } else if (isOneOf(before, {"than"}) && at > 1 && isOneOf(tokens[at - 2].text, {"less"})) {
       lead.qualifier = "up to";
       lead.first = at - 2;
+      return lead;
+    } else if (before == "than" && isBefore(1, {"more"})) {
+      const bool most = isBefore(2, {"not", "no"});
+      lead.qualifier = most ? "up to" : "more than";
+      lead.first = at - (most ? 3 : 2);
       return lead;
     } else if (!isOneOf(before, {".", ":", "為", "为", "有", "is", "are", "of", "各", "皆", "均", "都", "from", "between"})) {
       return lead;

@@ -87,10 +87,25 @@ const Concept* ParagraphReader::nounAt(std::size_t i, std::string_view role) con
   return aloneInWord ? nullptr : noun;
 }
 
+// 在短枝上, 於長枝, 在一年生枝上, 發自去年短枝的腋芽: where something stands.
+bool ParagraphReader::isLocative(std::size_t i) const {
+  if (!isHan(i)) return false;
+  constexpr std::size_t far = 16;
+  const bool closed = isAny(found_[i].end, {"上", "中", "內", "内", "處", "处", "旁", "端", "頂", "顶"});
+  for (std::size_t back = 1; back <= far && back <= i; ++back) {
+    if (tokens_[i - back].kind == TokenKind::Sign || tokens_[i - back].kind == TokenKind::Word) return false;
+    if (isAny(i - back, {"在", "於", "于"}) && (back <= 3 || (closed && back <= 8))) return true;
+    if (is(i - back, "自") && i > back && isAny(i - back - 1, {"發", "发", "生", "出"})) return true;
+  }
+  return false;
+}
+
 // "in the axils of leaves", "longer than petals", 與葉: an organ that is only named to place or compare another does not take over.
 bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   if (i == 0) return false;
-  const bool isMeasuredItself = found_[i].end < tokens_.size() && tokens_[found_[i].end].kind == TokenKind::Number;  // "in racemes 5-10 cm long"
+  std::size_t number = found_[i].end;  // "in racemes 5-10 cm long", "on a peduncle to 25 mm"
+  while (isAny(number, {"to", "up", "ca", "about"}) || (number > found_[i].end && is(number, "."))) ++number;
+  const bool isMeasuredItself = number < tokens_.size() && tokens_[number].kind == TokenKind::Number;
   std::size_t before = i - 1;
   if (before > 0 && isAny(before, {"the", "its", "each", "a"})) --before;
   while (before > 0 && (looksAdjectival(before) || (!isHan(i) && found_[before].conceptAs("which") != nullptr && nounAt(before) == nullptr) || isAny(before, {"lower", "upper", "young", "basal", "middle", "old", "lateral", "leaf", "short", "long", "spur", "juvenile", "fertile", "sterile", "flowering", "vegetative", "new",
@@ -101,21 +116,20 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   if (isGoal(i)) return scope_.organInSentence;
   const std::size_t behind = found_[i].end;  // 莖下部者3-4枚輪生: which of the leaves
   if (isHan(i) && isAny(behind, {"上", "下", "中", "基", "頂", "顶"}) && is(behind + 1, "部") && is(behind + 2, "者")) return scope_.organInSentence;
-  const bool tipOf = isHan(i) && last_.end == i && last_.kept && isAny(found_[i].end, {"端", "頂", "顶", "梢"});  // 單生莖端
+  const bool tipOf = isHan(i) && last_.end == i && last_.kept && isAny(found_[i].end, {"端", "頂", "顶", "梢", "先"});  // 單生莖端
   if (tipOf) return scope_.organInSentence;
   std::size_t behindTerms = before;  // "on a pendulous stalk"
   while (behindTerms > 0 && !isHan(i) && (isAny(behindTerms, {"a", "the"}) || (hasTraitMeaning(behindTerms) && nounAt(behindTerms) == nullptr))) --behindTerms;
   if (isAny(behindTerms, {"on", "at", "from", "near"})) before = behindTerms;
-  for (std::size_t back = 1; isHan(i) && back <= 3 && back <= i; ++back) {  // 在短枝上, 於長枝
-    if (tokens_[i - back].kind != TokenKind::Han) break;
-    if (isAny(i - back, {"在", "於", "于"})) return scope_.organInSentence;
-  }
+  if (is(behindTerms, "of") && behindTerms > 0 && isAny(behindTerms - 1, {"side", "sides"})) return scope_.organInSentence;  // "on each side of the forked rachis"
+  if (isLocative(i)) return scope_.organInSentence;
   if (isAny(before, {"without", "lacking", "no", "無", "无", "缺"}) && !is(i, "毛")) return true;
   const bool noneAbove = isHan(i) && i > 2 && is(i - 2, "地") && is(i - 1, "上") && isAny(i - 3, {"無", "无", "缺"});  // 無地上莖
   if (noneAbove) return true;
   if (before > 0 && is(before, "具") && isAny(before - 1, {"不", "未"})) return true;
+  if (is(before, "同") && isAny(i, {"葉", "叶"}) && hasTraitMeaning(found_[i].end)) return true;  // 同葉簇生
   if (isAny(before, {"與", "与"}) && isAny(found_[i].end, {"呈", "成", "夾", "夹", "間", "间", "等", "對", "对", "同"})) return true;
-  if (isAny(before, {"than", "to", "與", "与", "和", "短", "比", "較", "较", "似", "先", "exceeding", "於", "于", "near", "towards", "from", "among", "between", "above", "below", "on", "after", "before", "per", "until", "subtending", "opposite"}) && (!isMeasuredItself || isAny(before, {"from", "than", "exceeding"}))) {
+  if (isAny(before, {"than", "to", "與", "与", "和", "短", "比", "較", "较", "似", "先", "exceeding", "於", "于", "near", "toward", "towards", "from", "among", "between", "above", "below", "on", "after", "before", "per", "until", "subtending", "opposite"}) && (!isMeasuredItself || isAny(before, {"from", "than", "exceeding"}))) {
     const bool afterTo = is(before, "to") && before > 0 && nounAt(i)->name == "plant" && found_[before - 1];  // "shrubs to small trees"
     return scope_.organInSentence && !afterTo && !(isAny(before, {"和", "與", "与"}) && before > 0 && (nounAt(before - 1) != nullptr || scope_.organEnd == before));
   }
@@ -211,6 +225,7 @@ void ParagraphReader::noteSign(std::size_t i) {
   if (sentence) outside_.clear();
   if (sentence || isAny(i, {";", "；"})) scope_.stranger = false;
   if (sentence) {
+    sentenceBegin_ = i + 1;
     plantInSentence_ = false;
     scope_.organInSentence = false;
     scope_.piece = nullptr;
@@ -229,6 +244,14 @@ void ParagraphReader::noteSign(std::size_t i) {
   if (sentence || isAny(i, {";", "；", ","})) noteStranger(i);
 }
 
+// The lamina of a ray floret is a piece of it, and behind the leaflets of a sentence "blade" is theirs. Null: the leaf's.
+const Concept* ParagraphReader::bladeOwner(std::size_t i) const {
+  if (!isAny(i, {"lamina", "laminae", "blade", "blades"}) || scope_.organ == nullptr || !scope_.organInSentence) return nullptr;
+  if (isOneOf(scope_.organ->name, {"ray floret", "petal", "lip", "standard", "tepal", "bract", "sepal", "bracteole"})) return scope_.organ;
+  const Concept& leaflet = organNamed("leaflet");
+  return bladeNamedLast() == &leaflet ? &leaflet : nullptr;
+}
+
 void ParagraphReader::noteNoun(std::size_t i) {
   const Concept* noun = nounAt(i);
   if (noun == nullptr) return;
@@ -236,8 +259,8 @@ void ParagraphReader::noteNoun(std::size_t i) {
   if (role == "region") return notePlace(i, *noun);
   if (role == "sub") return notePiece(i, *noun);
   if (role == "blade") {
-    // The lamina of a ray floret is a piece of it.
-    if (isAny(i, {"lamina", "laminae", "blade", "blades"}) && scope_.organ != nullptr && scope_.organInSentence && isOneOf(scope_.organ->name, {"ray floret", "petal", "lip", "standard", "tepal"})) {
+    if (const Concept* owner = bladeOwner(i)) {
+      scope_.organ = owner;
       scope_.piece = noun;
       scope_.place = nullptr;
       scope_.organEnd = found_[i].end;
@@ -274,6 +297,8 @@ bool ParagraphReader::isNamedAgain(std::size_t i, const Concept& organ) const {
 void ParagraphReader::noteOrgan(std::size_t i, const Concept& organ) {
   weighNoun(i, organ);
   namedAt_[&organ] = i;
+  const bool isTime = i > 0 && is(i - 1, "in") && isAny(i, {"fruit", "flower", "bud", "bloom", "leaf"}) && scope_.organInSentence;  // "elongating in fruit to 20 cm"
+  if (isTime) return;
   if (isPlaceOnly(i) || isOfPlaceBefore(i)) {
     placeOnlyEnd_ = found_[i].end;
     return;
@@ -283,7 +308,8 @@ void ParagraphReader::noteOrgan(std::size_t i, const Concept& organ) {
   const bool ofInflorescence = is(i, "branches") && scope_.organ != nullptr && scope_.organ->name == "inflorescence" && scope_.organInSentence && i > 0 && is(i - 1, ",") && hasTraitMeaning(found_[i].end);
   if (ofInflorescence) return;
   const bool isMeasuredAgainst = isAny(found_[i].end, {"呈", "成", "夾", "夹", "間", "间", "之", "的", "等", "對", "对", "同"});
-  const bool together = !isMeasuredAgainst && i > 0 && isAny(i - 1, {"and", "及", "和", "與", "与"}) && scope_.organEnd == i - 1 && scope_.organ != nullptr && scope_.organ != &organ;
+  const std::size_t joint = !isHan(i) && i > 1 && (found_[i - 1].conceptAs("which") != nullptr || looksAdjectival(i - 1)) ? i - 1 : i;  // "sepals and lateral petals"
+  const bool together = !isMeasuredAgainst && joint > 0 && isAny(joint - 1, {"and", "及", "和", "與", "与"}) && scope_.organEnd == joint - 1 && scope_.organ != nullptr && scope_.organ != &organ;
   const Concept* partner = together ? scope_.organ : nullptr;
   // A plant or a twig bears what follows ("a shrub with opposite, ovate leaves"); it is not what the adjectives are about.
   const bool isSubject = !bears(organ) || isRightBehindOrgan(i);
@@ -298,7 +324,8 @@ void ParagraphReader::noteOrgan(std::size_t i, const Concept& organ) {
   const bool gathered = organ.name == "inflorescence" && in > 0 && is(in - 1, "in") && scope_.organ != nullptr && scope_.organ->name == "flower" && scope_.subjectInClause;
   const Concept* member = madeOf || gathered ? scope_.organ : nullptr;
   const Concept* container = ofFlowers || ofLeaf ? scope_.organ : nullptr;
-  const bool minor = isOneOf(organ.name, {"gland", "hair", "seta", "lenticel"});
+  const bool armed = organ.name == "thorn" && scope_.organ != nullptr && scope_.organ->name == "fruit";
+  const bool minor = armed || isOneOf(organ.name, {"gland", "hair", "seta", "lenticel"});
   const Concept* host = minor && scope_.organInSentence && scope_.organ != nullptr && i > 0 && tokens_[i - 1].kind != TokenKind::Sign ? scope_.organ : nullptr;
   scope_ = {&organ, partner, nullptr, nullptr, whichBefore(i), found_[i].end, true, isSubject, true, false, container, member, host};
   organFrom_.emplace_back(i, organ.name);
@@ -346,7 +373,7 @@ void ParagraphReader::notePlace(std::size_t i, const Concept& place) {
     organSeen_ = organSeen_ || isHan(i);
   }
   if (scope_.organ == nullptr || (isOneOf(scope_.organ->name, {"plant", "petiole", "vein", "stipule"}) && !(place.name == "surface" && scope_.organEnd == i) && !(scope_.organ->name == "stipule" && scope_.subjectInClause))) {
-    scope_.organ = &organNamed("leaf");
+    scope_.organ = scope_.organ != nullptr && scope_.organ->name == "vein" ? bladeNamedLast() : &organNamed("leaf");
     scope_.piece = nullptr;
     scope_.which.clear();
   }

@@ -5,6 +5,10 @@
 
 namespace axil::keywords {
 
+namespace {
+constexpr double tallestPlant_m = 150;  // what is said to be higher is where it grows
+}
+
 bool ParagraphReader::isAltitude(std::size_t i) const {
   for (std::size_t back = 1; back <= 7 && back <= i; ++back) {
     if (back == 1 && is(i - back, "深")) return true;
@@ -32,11 +36,14 @@ std::size_t ParagraphReader::readSizes(std::size_t i) {
   const std::size_t end = sizes.front().end;
   if (isHeightOfPlant(sizes.front())) enterPlant(sizes.front().first);
   const bool ofPlace = scope_.place != nullptr && scope_.place->name != "surface" && !scope_.commaSincePlace;
-  const bool elsewhere = isAltitude(i) || isAny(end, {"a", "above", "asl", "apart", "below", "deep", "from", "away"});
+  const Size& size0 = sizes.front();
+  const bool tooLarge = size0.unit == "m" && ((size0.range.low == 0 && size0.range.high > 0) || size0.range.high > tallestPlant_m);  // "pond margins; 0-900 m"
+  const bool elsewhere = isAltitude(i) || tooLarge || isAny(end, {"a", "above", "asl", "apart", "below", "deep", "from", "away"});
   const Concept* attributive = isSentenceEnd(end - 1) ? nullptr : organAfter(end);  // "80 cm d.b.h. Leaves"
-  const Concept* subject = attributive != nullptr && attributive != scope_.organ && !scope_.subjectInClause ? attributive : scope_.organ;
+  const bool linked = isHan(end) && isAny(end, {"的", "之"});  // 直徑3-5公釐的珠芽
+  const Concept* subject = attributive != nullptr && attributive != scope_.organ && (linked || !scope_.subjectInClause) ? attributive : scope_.organ;
   const Concept* organ = measuredOrgan(sizes.front(), subject);
-  if (!(scope_.organInSentence || subject == attributive) || organ == nullptr || ofPlace || elsewhere || isExtent(sizes.front().first)) return end;
+  if (!(scope_.organInSentence || subject == attributive) || organ == nullptr || (ofPlace && !(linked && subject == attributive)) || elsewhere || isExtent(sizes.front().first)) return end;
   if (scope_.stranger && subject != attributive) return end;
   const bool ofWhole = scope_.container == organ && !scope_.subjectInSegment && !isRightBehindOrgan(sizes.front().first);
   const Concept* piece = organ == scope_.organ && !ofWhole ? scope_.piece : nullptr;
@@ -81,10 +88,20 @@ const Concept* ParagraphReader::measuredOrgan(const Size& size, const Concept* s
   if (subject->name == "branch" && size.dimension == "height" && beside) return &organNamed(namedAt_.contains(&organNamed("stem")) ? "stem" : "plant");
   if (isOneOf(subject->name, {"trunk", "bark"}) && size.dimension == "height" && plantInSentence_ && beside) return &organNamed("plant");
   const bool afterComma = beside && !scope_.subjectInSegment;
+  // 側脈5對，長8公分，寬4公分: the blade is measured; 果具軟刺，徑1公分: the fruit.
+  if (subject->name == "vein" && afterComma && (size.dimension == "length" || size.dimension == "width")) return bladeNamedLast();
+  if (subject->name == "thorn" && afterComma && scope_.host != nullptr) return scope_.host;
   const bool ofPiece = scope_.container == subject;
   if (scope_.container != nullptr && !ofPiece && afterComma && (size.dimension.empty() || size.dimension == "length")) return scope_.container;
   if (scope_.member != nullptr && afterComma && size.dimension == "diameter") return scope_.member;
   return subject;
+}
+
+// The leaf, or in a sentence that has named leaflets those.
+const Concept* ParagraphReader::bladeNamedLast() const {
+  const Concept& leaflet = organNamed("leaflet");
+  const auto named = subjectAt_.find(&leaflet);
+  return named != subjectAt_.end() && named->second >= sentenceBegin_ ? &leaflet : &organNamed("leaf");
 }
 
 const Concept* ParagraphReader::dimensionOfOrganWord() const {

@@ -15,6 +15,9 @@ bool contains(const std::vector<std::string>& list, const std::string& name) { r
 
 bool isBody(const Concept& organ) { return isOneOf(organ.name, {"plant", "stem", "trunk", "bark", "root"}); }
 
+// What a habit can be handed on from: 枝條多，攀緣 is the plant's.
+bool isBearer(const Concept& organ) { return isBody(organ) || isOneOf(organ.name, {"branch", "rhizome", "pseudobulb", "tuber", "bulb", "corm", "stolon", "hair", "internode", "tendril", "node"}); }
+
 // A shape that a flat outline draws, or one of a body.
 bool isOutline(const Category& category, const Concept& entry) { return category.property == "shape" && entry.columns.contains("shape"); }
 
@@ -45,7 +48,8 @@ ParagraphReader::Ahead ParagraphReader::nounAhead(std::size_t end) const {
     // "adnate to petiole", "sessile and leaves": what a connecting word leads to must be another adjective.
     if (at > end && isAny(at - 1, {"to", "and", "or", "至", "或", "和"}) && nounAt(at) != nullptr) return {};
     if (const Concept* organ = nounAt(at); organ != nullptr && organ->columns.at("role") != "region") {
-      if (startsALine(at) || afterComma) return {};
+      const bool ofPlace = isHan(at) && !linked && isAny(found_[at].end, {"端", "頂", "顶", "先", "上", "梢", "腋"});  // 叢生小枝先端
+      if (startsALine(at) || afterComma || ofPlace) return {};
       const bool isPiece = organ->columns.at("role") == "sub";
       const Concept* named = organ->columns.at("role") == "blade" ? &organNamed("leaf") : isPiece ? ownerOf(*organ, at) : organ;
       const bool holds = isHan(at) ? linked || !scope_.subjectInSegment : !comma || !scope_.subjectInClause;
@@ -89,9 +93,14 @@ const Meaning* ParagraphReader::meaningFor(const Found& f, const Concept* organ,
   const Meaning* other = nullptr;
   const Meaning* own = nullptr;  // "stems succulent" is of the stem, "plants succulent" a life form
   const bool ofOrgan = organ != nullptr && organ->name != "plant";
+  const bool ofInflorescence = organ != nullptr && organ->name == "inflorescence";
+  for (const Meaning& m : f.phrase->meanings)
+    if (ofInflorescence && isHan(f.first) && m.category->property == "type" && m.category->defaultOrgan == "inflorescence") return &m;  // 花序圓錐狀: no cone
   for (const Meaning& m : f.phrase->meanings) {
     if (isGrammarWord(*m.category)) continue;
     if (place != nullptr && m.category->part == place->name) return &m;
+    const bool amongMargins = m.category->property == "margin" && last_.kept && last_.category == m.category && f.first < last_.end + 4;  // 全緣，稍反捲
+    if (amongMargins && place == nullptr) return &m;
     const bool fits = accepts(*m.category, organ);
     if (fits && ofOrgan && m.category->ownOrgan && own == nullptr) own = &m;
     else if (fits && m.category->part.empty() && whole == nullptr) whole = &m;
@@ -267,6 +276,8 @@ bool ParagraphReader::isPredicateBasal(std::size_t i) const {
 bool ParagraphReader::isOfAnotherOrgan(const Category& category, const Concept* organ, bool named) const {
   const bool ofTwig = !named && organ != nullptr && organ == scope_.organ && organ->name == "branch" && scope_.organInSentence && category.property == "shape" && tokens_[scope_.organEnd - 1].kind == TokenKind::Word;
   if (ofTwig) return true;  // "branchlets slender, angled or subulate"
+  const bool habitOfAPart = !named && organ != nullptr && organ == scope_.organ && scope_.subjectInClause && category.property == "habit" && !isBearer(*organ);
+  if (habitOfAPart) return true;  // 葉基生，平臥: not the plant
   if (organ != nullptr && organ->name == "vein" && isHan(scope_.organEnd) && !scope_.subjectInSegment) return false;  // 沿脈被毛，披針形: the leaf again
   if (named || organ == nullptr || organ != scope_.organ || !(scope_.subjectInClause || (organ->name == "bark" && scope_.organInSentence)) || accepts(category, organ) || category.ownOrgan) return false;
   return isOneOf(organ->name, {"bark", "root", "hair", "seta", "pappus", "vein", "awn", "thorn", "ovary", "gland", "lenticel", "style", "stigma", "stamen", "anther", "filament", "seed", "fruit", "rhizome", "pericarp", "stone", "sorus"});
@@ -277,6 +288,11 @@ bool ParagraphReader::isAboutHairs(std::size_t end) const {
   for (std::size_t at = end; at < tokens_.size() && at < end + 8 && isHan(at); ++at)
     if (isAny(at, {"毛", "腺", "鱗", "鳞", "刺"})) return true;
   return false;
+}
+
+// A Chinese noun that the vocabulary does not have.
+bool ParagraphReader::isBeforeStrangeNoun(std::size_t end) const {
+  return isHan(end) && !found_[end] && !isKnown(end) && !numberAt(tokens_, end) && isHan(end + 1) && !found_[end + 1];
 }
 
 // Words that mean something else beside that organ: a solitary trunk is no inflorescence, fruits in pairs do not stand opposite,
@@ -297,7 +313,16 @@ bool ParagraphReader::saysNothingOf(const Meaning& meaning, std::size_t i, const
   if (property == "arrangement" && value == "spiral" && isAny(found_[i].end, {"twisted", "coiled", "contorted", "curved", "wound", "扭", "捲", "卷", "旋", "彎", "弯"})) return true;
   if (property == "arrangement" && value == "rosette" && is(i + 1, "出")) return numberAt(tokens_, found_[i].end).has_value() || isAny(found_[i].end, {"脈", "脉", "掌"});  // 基出3脈
   if (property == "arrangement" && value == "rosette" && isOneOf(name, {"inflorescence", "flower", "bud", "fruit"})) return true;
+  const bool inDigits = isHan(found_[i].end - 1) && numberAt(tokens_, i) && property == "apex" && (place == nullptr || place->name != "apex");
+  if (inDigits && isOneOf(name, {"stigma", "ligule", "bract", "lip", "style", "corolla", "calyx"})) return true;  // 柱頭2裂 counts its lobes
+  if (property == "shape" && i > 0 && isAny(i - 1, {"成", "具", "有"}) && isBeforeStrangeNoun(found_[i].end)) return true;  // 膨大成紡錘形氣囊
+  if (property == "shape" && name == "plant" && scope_.organEnd > 0 && isAny(scope_.organEnd - 1, {"冠", "crown"})) return !contains({"conical", "pyramidal", "globose", "cylindric", "hemispheric"}, value);  // 樹冠卵形
   if (property == "type" && value == "solitary" && is(found_[i].end, "-")) return true;  // "single-nerved"
+  if (property == "type" && meaning.category->defaultOrgan == "inflorescence" && isMannerOfAnother(i, value)) return true;
+  const Concept* next = nounAt(found_[i].end);
+  if (property == "arrangement" && value == "fascicled" && next != nullptr && next->name == "leaf sheath") return true;  // "fascicle sheath"
+  if (property == "margin" && value == "spinose" && isHan(i) && found_[i].end == i + 2 && isAny(i + 1, {"狀", "状"}) && place == nullptr) return true;  // 小苞片刺狀
+  if (property == "shape" && i > 2 && isAny(i - 1, {"成", "呈"}) && isAny(i - 2, {"狹", "狭", "窄"})) return true;  // 向下漸狹成楔形: its base
   if (property == "margin" && value == "spinose" && isOneOf(name, {"fruit", "seed", "stem", "branch", "plant", "calyx"})) return true;  // 蒴果具刺
   if (property == "margin" && value == "entire" && i > 0 && isAny(i - 1, {"falling", "shed", "dispersed", "swallowed"})) return true;
   if (property == "duration" && isOneOf(value, {"annual", "biennial"}) && isOneOf(name, {"branch", "bark"})) return true;  // 二年生小枝
@@ -329,9 +354,13 @@ std::optional<Meaning> ParagraphReader::deeperCut(std::size_t i, const Meaning& 
 
 void ParagraphReader::readTerm(std::size_t i) {
   const Found& f = found_[i];
-  if (!hasTraitMeaning(i) || isOppositeOfLeaves(i)) return;
+  if (!hasTraitMeaning(i) || isOppositeOfLeaves(i) || readTernate(i)) return;
   startWithPlant(i);
   if (f.as("organ") != nullptr && !speaksAsTerm(i)) return;
+  if (scope_.host != nullptr && !scope_.subjectInSegment && (f.as("margin") || f.as("arrangement"))) {  // 近基部具2腺體，全緣: the blade again
+    scope_.organ = scope_.host;
+    scope_.host = scope_.piece = nullptr;
+  }
   const Ahead ahead = nounAhead(f.end);
   const Concept* attributive = ahead.organ;
   const Concept* organ = attributive != nullptr ? attributive : scope_.organ;
@@ -368,6 +397,9 @@ void ParagraphReader::readTerm(std::size_t i) {
   const bool ofTooth = attributive == nullptr && scope_.piece != nullptr && scope_.piece->name == "tooth" && meaning->category->property == "margin";  // 齒尖內彎，有時呈波狀
   const bool ofWhole = attributive == nullptr && scope_.piece != nullptr && scope_.container == scope_.organ && !scope_.subjectInSegment && !isHan(i) && meaning->category->property == "margin";  // "with 3-4 lobes per side, doubly serrate"
   const Subject subject{organ, attributive != nullptr ? ahead.piece : ofTooth || ofWhole ? nullptr : scope_.piece, attributive != nullptr, place, named != nullptr};
+  if (now.kept && meaning->category->property == "venation") countVeins(i);
+  readElidedPinnate(i, now);
+  readElidedCut(i, now);
   if (now.kept && continuesCompound(i, *meaning->category)) extendCompound(f, meaning->entry->name);
   else keepTerm(i, *meaning, subject, now);
   last_ = now;
