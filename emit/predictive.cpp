@@ -111,14 +111,60 @@ class Predictor {
     return builder_.call("normal", {angle(mean), angle(deviation)});
   }
   ExprId scaled(ExprId length, double factor) { return std::abs(factor - 1) < 5e-5 ? length : times(length, ratio(factor)); }
-  /// How a step that changes from rank to rank has changed at `rank`.
-  ExprId bentBy(double curve, ExprId rank) { return builder_.call("exp", {times(builder_.number(curve, 6), rank)}); }
+  /// exp(factor * of)
+  ExprId exponential(double factor, ExprId of) { return builder_.call("exp", {times(builder_.number(factor, 6), of)}); }
+  /// What a bow is made of at `place`: exp(-pace * (place - middle)), and 1 more or 1 less that.
+  ExprId bowTerm(const quantify::Bow& bow, ExprId place) {
+    return exponential(-bow.pace, bow.middle < 0 ? plus(place, builder_.number(-bow.middle, 4)) : minus(place, builder_.number(bow.middle, 4)));
+  }
+  ExprId bowSum(const quantify::Bow& bow, ExprId place) {
+    if (bow.sign > 0) return plus(builder_.whole(1), bowTerm(bow, place));
+    return builder_.call("max", {builder_.number(quantify::Bow::kLeast, 2), minus(builder_.whole(1), bowTerm(bow, place))});
+  }
+  /// A bow's value at `place` over that at `under`. Without quotients of what may be nothing.
+  ExprId bowRatio(const quantify::Bow& bow, ExprId place, ExprId under) {
+    if (bow.shape == quantify::Bow::Shape::Logistic) std::swap(place, under);
+    if (bow.shape != quantify::Bow::Shape::Gompertz) return builder_.binary(BinaryOp::Divide, bowSum(bow, place), bowSum(bow, under));
+    const ExprId more = bowTerm(bow, place), less = bowTerm(bow, under);
+    return builder_.call("exp", {bow.sign > 0 ? minus(more, less) : minus(less, more)});
+  }
+  ExprId bowAt(const quantify::Bow& bow, ExprId place) {
+    using Shape = quantify::Bow::Shape;
+    switch (bow.shape) {
+      case Shape::Mitscherlich: return bowSum(bow, place);
+      case Shape::Logistic: return builder_.binary(BinaryOp::Divide, builder_.whole(1), bowSum(bow, place));
+      case Shape::Gompertz: return exponential(bow.sign, bowTerm(bow, place));
+    }
+    return place;
+  }
+  /// `length` of the place `from` carried on to the next one.
+  ExprId carriedOn(const OrderOutlook& o, ExprId length, ExprId from) {
+    const auto& course = o.length;
+    if (course.bow) return times(length, bowRatio(*course.bow, plus(from, builder_.whole(1)), from));
+    const ExprId next = scaled(length, course.step);
+    return course.curve == 1 ? next : times(next, exponential(std::log(course.curve), from));
+  }
+  /// And back from the next place to `from`.
+  ExprId carriedBack(const OrderOutlook& o, ExprId length, double ratioToIt, ExprId from) {
+    const auto& course = o.length;
+    if (course.bow) return times(scaled(length, ratioToIt), bowRatio(*course.bow, from, plus(from, builder_.whole(1))));
+    const ExprId below = scaled(length, ratioToIt / course.step);
+    return course.curve == 1 ? below : times(below, exponential(-std::log(course.curve), from));
+  }
+  /// The usual first length of axes that begin in a stage of the plant.
+  ExprId usualAt(const OrderOutlook& o, ExprId stage) {
+    const auto& course = o.length;
+    if (course.bow) return times(size(o.usualLength), bowAt(*course.bow, stage));
+    const ExprId length = times(size(o.usualLength), exponential(std::log(course.step), stage));
+    return course.curve == 1 ? length : times(length, exponential(std::log(course.curve) / 2, times(stage, minus(stage, builder_.whole(1)))));
+  }
+  /// Whether lengths may grow without end.
+  static bool growsOn(const quantify::LengthOutlook& course) { return !course.bow && (course.step > 1 + 5e-5 || course.curve > 1); }
+  /// The stage of the plant in which an apex makes what it makes next.
+  ExprId stageNow() { return minus(builder_.number(outlook_.now() + predictive_.stages + 1, 4), name("left")); }
   /// The place on its order's course, by rank or by the plant's stages, of the segment that is being made; `below` it.
   ExprId courseAt(const OrderOutlook& o, ExprId rank, int below) {
-    if (o.length.along == quantify::LengthsAlong::Stage) {
-      const double now = outlook_.statistics.schedule.plants[outlook_.plant].now;
-      return minus(builder_.number(now + predictive_.stages + 1 - below, 4), name("left"));
-    }
+    if (o.length.along == quantify::LengthsAlong::Stage) return below == 0 ? stageNow() : minus(stageNow(), builder_.whole(below));
     return below == 0 ? rank : minus(rank, builder_.whole(below));
   }
   /// `length` with the order's chance around it.
@@ -300,8 +346,8 @@ class Predictor {
     to.push_back(Builder::module("S", {builder_.whole(stemOf(o.order)), varied(length, o.startMiss)}));
     const ExprId around = o.startsAlike ? angle(o.firstAzimuth) : angle(0);
     if (o.leafAtOwnTip && leafShare > 0.5) addLeaves(to, o, around);
-    ExprId second = scaled(length, o.length.step);
-    if (o.length.curve != 1 && o.length.along == quantify::LengthsAlong::Stage) second = times(second, bentBy(std::log(o.length.curve), courseAt(o, second, 0)));
+    const bool byStage = o.length.along == quantify::LengthsAlong::Stage;
+    const ExprId second = byStage ? carriedOn(o, length, stageNow()) : scaled(length, std::exp(o.length.at(1) - o.length.at(0)));
     const ApexStart next{builder_.whole(1), second, around, builder_.whole(0), left};
     to.push_back(apex(apexOf(o.order), next, bends(o)));
   }
@@ -309,8 +355,8 @@ class Predictor {
   /// The foretold length of an axis that branches off. The bearer is the segment below the one whose length an apex knows.
   ExprId branchLength(const OrderOutlook& bearer, const OrderOutlook& o, double armRatio) {
     if (o.start == quantify::StartRule::Usual) return size(o.usualLength);
-    const ExprId length = scaled(name("length"), armRatio / bearer.length.step);
-    return bearer.length.curve == 1 ? length : times(length, bentBy(-std::log(bearer.length.curve), courseAt(bearer, name("rank"), 1)));
+    if (o.start == quantify::StartRule::Stage) return usualAt(o, bearer.delay == 0 ? stageNow() : plus(stageNow(), builder_.whole(bearer.delay)));
+    return carriedBack(bearer, name("length"), armRatio, courseAt(bearer, name("rank"), 1));
   }
 
   /// What branches off at an apex' node.
@@ -349,9 +395,8 @@ class Predictor {
     if (divergence != 0) around = plus(around, drawnAngle(divergence, o.divergenceDeviation));
     if (bent) around = minus(around, name("side"));
     if (leaves && o.leafAtOwnTip) addLeaves(to, o, around);
-    ExprId length = scaled(name("length"), o.length.step);
-    if (o.length.curve != 1) length = times(length, bentBy(std::log(o.length.curve), courseAt(o, name("rank"), 0)));
-    if (o.length.step > 1 + 5e-5 || o.length.curve > 1) length = builder_.call("min", {length, size(kLongest * longest_)});
+    ExprId length = carriedOn(o, name("length"), courseAt(o, name("rank"), 0));
+    if (growsOn(o.length)) length = builder_.call("min", {length, size(kLongest * longest_)});
     to.push_back(apex(apexOf(o.order), {plus(name("rank"), builder_.whole(1)), length, around, builder_.whole(0), minus(name("left"), builder_.whole(1))}, bent));
     return to;
   }
@@ -508,12 +553,21 @@ class Predictor {
       fates += (fates.empty() ? "" : ", ") + (fate.goesOn ? "goes on" + branches : fate.branches > 0 ? "forks into " + std::to_string(fate.branches) : std::string("ends")) + " " + fixed(100 * fate.share, 0) + " %";
     }
     std::vector<std::string> lines{"// Order " + std::to_string(o.order) + ", from " + countOf(o.segments, "segment", "segments") + ": an apex " + fates + shapeWords(o.fates) + "."};
-    std::string growth = "// Its next length is foretold from " + std::string(quantify::nameOf(o.length.rule)) + ", x " + fixed(o.length.step, 4) + (o.length.along == quantify::LengthsAlong::Stage ? " a stage of the plant" : " a rank") + (o.length.curve == 1 ? "" : ", itself x " + fixed(o.length.curve, 4) + " a rank") + "; 90 % within a factor of " +
+    std::string growth = "// Its next length is foretold from " + std::string(quantify::nameOf(o.length.rule)) + ", " + courseWords(o.length) + "; 90 % within a factor of " +
                          fixed(std::exp(kNinety * o.length.miss), 3) + " (" + countOf(o.length.samples, "sample", "samples") + ").";
     if (!o.schedule.steady) growth += " It makes " + fixed(o.schedule.rate, 2) + " segments a stage" + (o.schedule.lasting ? " for " + fixed(*o.schedule.lasting, 0) + " stages." : ".");
     if (o.most) growth += " Axes end after " + countOf(static_cast<std::size_t>(*o.most), "segment", "segments") + ".";
     lines.push_back(growth);
     return lines;
+  }
+
+  static std::string courseWords(const quantify::LengthOutlook& course) {
+    const std::string place = course.along == quantify::LengthsAlong::Stage ? "stage" : "rank";
+    const std::string along = course.along == quantify::LengthsAlong::Stage ? "a stage of the plant" : "a rank";
+    if (!course.bow) return "x " + fixed(course.step, 4) + " " + along + (course.curve == 1 ? "" : ", itself x " + fixed(course.curve, 4) + " " + along);
+    const bool falls = course.bow->at(1) < course.bow->at(0);
+    const std::string what = course.bow->pace < 0 ? "which fall from a level" : falls ? "which fall to a level" : "which rise to a level";
+    return what + " by the " + place + " (" + quantify::nameOf(course.bow->shape) + ", pace " + fixed(course.bow->pace, 3) + " " + along + ", middle at " + place + " " + fixed(course.bow->middle, 1) + ")";
   }
 
   static std::string shapeWords(const quantify::FateTable& table) {

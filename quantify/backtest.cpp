@@ -116,7 +116,7 @@ double armFactor(const OrderOutlook& bearer, const OrderOutlook& own, const Meas
     before += m.at(sister).rotr.radians() < m.at(child).rotr.radians() ? 1 : 0;
   }
   const auto arms = bearer.arms.find(axes);
-  if (arms == bearer.arms.end() || own.start == StartRule::Usual) return 1;
+  if (arms == bearer.arms.end() || own.start == StartRule::Usual || own.start == StartRule::Stage) return 1;
   return arms->second[std::min(before, arms->second.size() - 1)].ratio / own.bearerRatio;
 }
 
@@ -142,7 +142,7 @@ void compareLengths(BacktestOfPlant& result, const Outlook& outlook, const Measu
       if (thesis != nullptr && !thesis->children.empty()) length.thesis = middleOf(length.first ? thesis->children.front().length : thesis->children.back().length);
       if (length.first) {
         const OrderOutlook& o = outlook.of(length.order);
-        length.foretold = o.firstLength(m.at(own).length, outlook.levels[s]) * armFactor(outlook.of(length.order - 1), o, late, child);
+        length.foretold = o.firstLength(m.at(own).length, outlook.levels[s], outlook.now() + 1) * armFactor(outlook.of(length.order - 1), o, late, child);
         const double reach = widened(o.startMiss, o.starts);
         length.low = length.foretold * std::exp(-reach);
         length.high = length.foretold * std::exp(reach);

@@ -33,6 +33,8 @@ class Maker {
 
   /// What all plants show; then each plant's own tips, as often as wanted.
   void makeShared() {
+    axes_ = axesByOrder(plants_, stats().schedule);
+    shared_ = sharedBowsBack(axes_);
     for (int order = 0; order < static_cast<int>(out_.statistics.schedule.orders.size()); ++order) addOrder(order);
     setStarts(out_, plants_, courses_);
   }
@@ -57,7 +59,7 @@ class Maker {
     o.delay = stats().patterns[static_cast<std::size_t>(order)].delay;
     setEnd(o);
     setFates(o);
-    courses_[order] = setLength(o, plants_, stats());
+    courses_[order] = setLength(o, axes_[order], shared_, stats());
     o.bend = stats().of(Quantity::Bend).nearest(order);
     o.insertion = stats().of(Quantity::Insertion).nearest(order - 1);
     setRadius(o);
@@ -197,8 +199,9 @@ class Maker {
     OrderCourse course = courses_.at(axis.order);
     course.step = std::log(o.length.step);
     course.curve = std::log(o.length.curve);
+    course.bow = o.length.bow;
     tip.length = std::exp(foretold(o.length.rule, lengths, below, course));
-    tip.miss = o.length.samples >= 2 ? doubtOf(o.length, below, course) : std::max(o.length.miss, o.startMiss);
+    tip.miss = o.length.samples >= 2 ? doubtOf(o.length, lengths, course) : std::max(o.length.miss, o.startMiss);
     const double reach = kNinety * tip.miss * fewFactor(o.length.samples);
     tip.low = tip.length * std::exp(-reach);
     tip.high = tip.length * std::exp(reach);
@@ -228,7 +231,9 @@ class Maker {
         if (share <= 0) continue;
         const OrderOutlook& next = out_.of(axis.order + 1);
         const auto around = nodeAzimuth(plant, s);
-        out_.buds.push_back({s, axis.order + 1, o.delay - place.fromTip, share, next.firstLength(plant.measurements->at(s).length, out_.levels[placeOf(s)]), around.value_or(0) + o.branchBesideLeaf - twistOf(plant, s)});
+        const int waits = o.delay - place.fromTip;
+        const double length = next.firstLength(plant.measurements->at(s).length, out_.levels[placeOf(s)], out_.now() + waits + 1);
+        out_.buds.push_back({s, axis.order + 1, waits, share, length, around.value_or(0) + o.branchBesideLeaf - twistOf(plant, s)});
       }
     }
     std::sort(out_.buds.begin(), out_.buds.end(), [](const BudOutlook& x, const BudOutlook& y) { return x.at < y.at; });
@@ -236,6 +241,8 @@ class Maker {
 
   std::span<const MeasuredPlant> plants_;
   Outlook out_;
+  std::map<int, Axes> axes_;
+  std::vector<SharedBows> shared_;
   std::map<int, OrderCourse> courses_;
 };
 
@@ -252,9 +259,12 @@ const char* nameOf(LengthRule rule) {
 
 const OrderOutlook& Outlook::of(int order) const { return orders[static_cast<std::size_t>(std::clamp(order, 0, static_cast<int>(orders.size()) - 1))]; }
 
-double OrderOutlook::firstLength(double bearer, double level) const {
+double LengthOutlook::at(double place) const { return bow ? bow->at(place) : std::log(step) * place + std::log(curve) * place * (place - 1) / 2; }
+
+double OrderOutlook::firstLength(double bearer, double level, double stage) const {
   switch (start) {
     case StartRule::Usual: return usualLength;
+    case StartRule::Stage: return usualLength * std::exp(length.at(stage));
     case StartRule::Bearer: return bearerRatio * bearer;
     case StartRule::Level: return bearerRatio * level;
   }

@@ -6,12 +6,14 @@
 /// ends) and at which ranks (fates), how leaves and branches stand, how large leaves get, how many stages they take and after how many they are gone.
 /// The length of a next segment is foretold by the rule that foretold the measured ones best, each from the segments below it: the order's
 /// trend along the rank, the axis' own level on that trend, or the segment below times the usual ratio; its misses make the interval.
-/// A trend may bend (lengths that swell and then dwindle along an axis, or with the age of the plant) where that is more than chance; where the youngest segments
+/// A trend may bend (lengths that swell and then dwindle along an axis, or with the age of the plant; that rise to a level, fall to one or leave one, bow.hpp) where that is more than chance: by the Bayesian
+/// information criterion, with the levels of axes free, an order that shows no law of its own taking that of all orders together; where the youngest segments
 /// have clearly left it, the segment below is taken on by the ratio that is usual among them. Rules that are no better than chance are not told apart: fewer than three misses take
 /// the segment below. Source of the idea: L-Grammar Generator
 /// 2005, section 3.4.2 and chapter 4; choice by hindsight as in Hyndman and Athanasopoulos, Forecasting (2021), section 5.10.
 
 #include "base/result.hpp"
+#include "quantify/bow.hpp"
 #include "quantify/layers.hpp"
 
 #include <map>
@@ -33,12 +35,15 @@ struct LengthOutlook {
   LengthsAlong along = LengthsAlong::Rank;
   double step = 1;          ///< factor from rank (stage) 0 to the next
   double curve = 1;         ///< by which that factor changes from rank to rank, where lengths are seen to swell or to dwindle so
+  std::optional<Bow> bow;   ///< that lengths follow instead of those steps
   double miss = 0;          ///< standard deviation of log(true / foretold)
   std::size_t samples = 0;  ///< segments it was judged by
+  /// The logarithm at a rank (or stage), against its order's level.
+  [[nodiscard]] double at(double place) const;
 };
 
-/// What the first segment of a new axis follows: what is usual for its order, its bearer's length, or the level that its bearer's axis keeps to there.
-enum class StartRule { Usual, Bearer, Level };
+/// What the first segment of a new axis follows: what is usual for its order, its order's course by the stage in which it begins, its bearer's length, or the level that its bearer's axis keeps to there.
+enum class StartRule { Usual, Stage, Bearer, Level };
 
 /// One of the axes that leave a node together, where they differ (arms.hpp).
 struct ArmOutlook {
@@ -53,7 +58,7 @@ struct OrderOutlook {
   std::optional<int> most;          ///< segments at which axes of this order end, if they do
   int delay = 0;                    ///< stages after its node that a branch begins, beyond the usual one
   LengthOutlook length;
-  double usualLength = 0;           ///< of an axis' first segment
+  double usualLength = 0;           ///< of an axis' first segment; where starts follow the stage, over the course's value there
   StartRule start = StartRule::Usual;
   double bearerRatio = 1;           ///< of axes of this order: the first segment's length over its bearer's (or the bearer's level)
   double startMiss = 0;             ///< standard deviation of log(true / foretold) of first segments
@@ -78,8 +83,8 @@ struct OrderOutlook {
   double branchBesideLeaf = 0;      ///< azimuth of a branch against the leaf of its node
   std::size_t segments = 0;         ///< measured
 
-  /// Foretold median of a new axis' first segment, on a segment of length `bearer` where its axis' level is `level`.
-  [[nodiscard]] double firstLength(double bearer, double level) const;
+  /// Foretold median of a new axis' first segment, made in `stage` on a segment of length `bearer` where its axis' level is `level`.
+  [[nodiscard]] double firstLength(double bearer, double level, double stage) const;
 };
 
 /// What one measured axis will do next.
@@ -112,6 +117,7 @@ struct Outlook {
   std::vector<double> levels;     ///< of each of its segments: the length that its axis keeps to there, without the segment's own chance
   std::vector<BudOutlook> buds;
   LayeredStatistics statistics;
+  [[nodiscard]] double now() const { return statistics.schedule.plants[plant].now; }   ///< that plant's newest stage
   [[nodiscard]] const OrderOutlook& of(int order) const;  ///< of orders above the highest, the highest's
 };
 

@@ -10,9 +10,8 @@ namespace axil::quantify {
 
 namespace {
 
-constexpr double kMostWeight = 100;      // segments: axes that do not differ
 constexpr double kClearCurve = 3;        // standard errors that a curve must have
-constexpr std::size_t kCurveSamples = 20;
+constexpr std::size_t kCurveSamples = 12;
 
 double pairsBelow(double rank) { return rank * (rank - 1) / 2; }
 
@@ -27,7 +26,7 @@ OrderCourse straightCourse(const Trend& trend, std::size_t samples, std::size_t 
   OrderCourse course;
   course.start = trend.start;
   course.step = trend.clear() ? trend.slope : 0;
-  course.stepError = trend.slopeError;
+  course.doubt.first = trend.slopeError * trend.slopeError;
   // Axes of one segment say nothing of levels.
   if (samples > axes) course.weight = std::min(kMostWeight, std::pow(trend.residual / std::max(trend.axisDeviation, 1e-9), 2));
   return course;
@@ -42,7 +41,7 @@ std::optional<OrderCourse> curvedCourse(std::span<const AxisLengths> axes, Lengt
   if (samples < kCurveSamples || freedom < kCurveSamples / 2) return std::nullopt;
   OrderCourse course;
   course.along = along;
-  double reach = std::numeric_limits<double>::infinity(), curveError = 0;
+  double reach = std::numeric_limits<double>::infinity();
   for (int round = 0; round < 5; ++round) {
     Products sum;
     std::vector<double> offs;
@@ -78,14 +77,13 @@ std::optional<OrderCourse> curvedCourse(std::span<const AxisLengths> axes, Lengt
     }
     const double deviation = std::sqrt(squares / weights * static_cast<double>(samples) / static_cast<double>(freedom));
     reach = std::max(2 * 1.4826 * medianOf(offs), 1e-9);
-    course.stepError = deviation * std::sqrt(sum.qq / determinant);
-    course.curveError = curveError = deviation * std::sqrt(sum.rr / determinant);
-    course.bothErrors = -deviation * deviation * sum.rq / determinant;
+    const double variance = deviation * deviation;
+    course.doubt = {variance * sum.qq / determinant, variance * sum.rr / determinant, -variance * sum.rq / determinant};
     const Centre centre = centreOf(levels);
     course.weight = std::min(kMostWeight, std::pow(deviation / std::max(centre.deviation, 1e-9), 2));
     if (round == 4) course.start = centre.value;
   }
-  return std::abs(course.curve) > kClearCurve * curveError ? std::optional(course) : std::nullopt;
+  return std::abs(course.curve) > kClearCurve * std::sqrt(course.doubt.second) ? std::optional(course) : std::nullopt;
 }
 
 AxisLengths lengthsOf(const MeasuredPlant& plant, const PlantSchedule& schedule, const Axis& axis) {
@@ -98,7 +96,17 @@ AxisLengths lengthsOf(const MeasuredPlant& plant, const PlantSchedule& schedule,
 
 double AxisLengths::faded(std::size_t rank, double fading) const { return fading == 1 ? 1 : std::pow(fading, rests + static_cast<double>(logs.size() - 1 - rank)); }
 
-double OrderCourse::at(double place) const { return start + step * place + curve * pairsBelow(place); }
+double OrderCourse::at(double place) const { return start + (bow ? bow->at(place) : step * place + curve * pairsBelow(place)); }
+
+std::pair<double, double> OrderCourse::slopes(double place) const {
+  if (!bow) return {place, pairsBelow(place)};
+  constexpr double kPart = 1e-4;
+  const double pace = kPart * std::abs(bow->pace);
+  const auto difference = [place](const Bow& more, const Bow& less, double apart) { return (more.at(place) - less.at(place)) / apart; };
+  Bow quicker = *bow, slower = *bow, later = *bow, earlier = *bow;
+  quicker.pace += pace, slower.pace -= pace, later.middle += kPart, earlier.middle -= kPart;
+  return {difference(quicker, slower, 2 * pace), difference(later, earlier, 2 * kPart)};
+}
 
 double OrderCourse::levelOf(const AxisLengths& axis, std::size_t count) const {
   double off = 0;

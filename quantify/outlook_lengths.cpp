@@ -19,16 +19,6 @@ constexpr std::size_t kHindsight = 2;    // youngest segments of each axis that 
 constexpr std::size_t kFewHindsights = 8;
 constexpr double kExact = 1e-6;          // misses of rounding alone
 
-using Axes = std::vector<AxisLengths>;
-
-Axes axesOf(std::span<const MeasuredPlant> plants, const Schedule& schedule, int order) {
-  Axes axes;
-  for (std::size_t p = 0; p < plants.size(); ++p)
-    for (const Axis& axis : plants[p].structure->axes)
-      if (axis.order == order) axes.push_back(lengthsOf(plants[p], schedule.plants[p], axis));
-  return axes;
-}
-
 double deviationOf(std::span<const double> misses) {
   if (misses.empty()) return 0;
   double sum = 0;
@@ -66,6 +56,7 @@ struct Candidate {
 
 OrderCourse stepped(OrderCourse course, double step) {
   course.step = step;
+  course.doubt = {};
   return course;
 }
 
@@ -82,15 +73,16 @@ double recentStep(const Axes& axes) {
 }
 
 /// Courses along which all of the axes run. An order that stops after its stages loses count of them.
-std::vector<Candidate> lastingCandidates(const Axes& axes, const OrderCourse& straight, double usualStep, bool countsStages) {
+std::vector<Candidate> lastingCandidates(const Axes& axes, const SharedBows& shared, const OrderCourse& straight, double usualStep, bool countsStages) {
   std::vector<Candidate> all{{LengthRule::Trend, straight, kSlightlyBetter}, {LengthRule::Axis, straight, kSlightlyBetter}, {LengthRule::Last, stepped(straight, usualStep), kSlightlyBetter}};
   for (const LengthsAlong along : {LengthsAlong::Rank, LengthsAlong::Stage}) {
     if (along == LengthsAlong::Stage && !countsStages) continue;
-    const auto curved = curvedCourse(axes, along, 1);
-    if (!curved) continue;
-    all.push_back({LengthRule::Trend, *curved, kClearlyBetter});
-    all.push_back({LengthRule::Axis, *curved, kSlightlyBetter});
-    all.push_back({LengthRule::Last, *curved, kSlightlyBetter});
+    const auto bowed = bowedCourse(axes, along, shared);
+    const auto bent = bowed ? bowed : curvedCourse(axes, along, 1);
+    if (!bent) continue;
+    all.push_back({LengthRule::Trend, *bent, kClearlyBetter});
+    all.push_back({LengthRule::Axis, *bent, kSlightlyBetter});
+    all.push_back({LengthRule::Last, *bent, kSlightlyBetter});
   }
   return all;
 }
@@ -106,7 +98,7 @@ std::vector<Candidate> recentCandidates(const Axes& axes, const OrderCourse& str
 }
 
 /// Made in one way of different axes.
-bool alike(const Candidate& a, const Candidate& b) { return a.rule == b.rule && a.course.along == b.course.along && (a.course.curve == 0) == (b.course.curve == 0); }
+bool alike(const Candidate& a, const Candidate& b) { return a.rule == b.rule && a.course.along == b.course.along && a.course.bends() == b.course.bends(); }
 
 /// The line along the rank of those axes alone, and the step from each segment to the next.
 std::pair<OrderCourse, double> straightOf(const Axes& axes) {
@@ -139,14 +131,14 @@ struct Hindsight {
   double chosen = 0;
   std::vector<double> recent;   ///< infinite where it would not have been there
 };
-Hindsight hindsightOf(const Axes& axes, const Candidate& chosen, const std::vector<Candidate>& recent, bool countsStages) {
+Hindsight hindsightOf(const Axes& axes, const std::vector<SharedBows>& shared, const Candidate& chosen, const std::vector<Candidate>& recent, bool countsStages) {
   std::vector<double> own;
   std::vector<std::vector<double>> others(recent.size());
   for (std::size_t back = 1; back <= kHindsight; ++back) {
     const Axes below = withoutLast(axes, back);
     if (below.empty()) break;
     const auto [straight, step] = straightOf(below);
-    const std::vector<Candidate> lasting = lastingCandidates(below, straight, step, countsStages), young = recentCandidates(below, straight, countsStages);
+    const std::vector<Candidate> lasting = lastingCandidates(below, shared[back], straight, step, countsStages), young = recentCandidates(below, straight, countsStages);
     const auto missesOf = [&](const std::vector<Candidate>& all, std::vector<Candidate>::const_iterator found) {
       std::vector<double> misses;
       if (found == all.end()) return misses;
@@ -168,23 +160,39 @@ Hindsight hindsightOf(const Axes& axes, const Candidate& chosen, const std::vect
 
 }  // namespace
 
-double doubtOf(const LengthOutlook& length, std::size_t below, const OrderCourse& course) {
+double doubtOf(const LengthOutlook& length, const AxisLengths& axis, const OrderCourse& course) {
+  const std::size_t below = axis.logs.size();
   const double scatter = length.miss * levelDoubt(length.rule, below, course);
-  if (length.rule == LengthRule::Last) return scatter;
-  // What comes next lies further on than the middle of what is known.
-  const double count = static_cast<double>(below);
-  const double r = (count + 1) / 2;
-  const auto pairs = [](double rank) { return rank * (rank - 1) / 2; };
-  double q = pairs(count);
-  for (std::size_t i = 0; i < below; ++i) q -= pairs(static_cast<double>(i)) / count;
-  const double variance = r * r * course.stepError * course.stepError + q * q * course.curveError * course.curveError + 2 * r * q * course.bothErrors;
+  // What comes next lies further on than what it is told by: the middle of what is known, or the last of it.
+  auto [first, second] = course.slopes(course.placeOf(axis, below));
+  const std::size_t from = length.rule == LengthRule::Last ? below - 1 : 0;
+  for (std::size_t i = from; i < below; ++i) {
+    const auto [a, b] = course.slopes(course.placeOf(axis, i));
+    first -= a / static_cast<double>(below - from);
+    second -= b / static_cast<double>(below - from);
+  }
+  const double variance = first * first * course.doubt.first + second * second * course.doubt.second + 2 * first * second * course.doubt.both;
   return std::sqrt(scatter * scatter + std::max(0.0, variance));
 }
 
-OrderCourse setLength(OrderOutlook& o, std::span<const MeasuredPlant> plants, const LayeredStatistics& statistics) {
+std::map<int, Axes> axesByOrder(std::span<const MeasuredPlant> plants, const Schedule& schedule) {
+  std::map<int, Axes> axes;
+  for (std::size_t p = 0; p < plants.size(); ++p)
+    for (const Axis& axis : plants[p].structure->axes) axes[axis.order].push_back(lengthsOf(plants[p], schedule.plants[p], axis));
+  return axes;
+}
+
+std::vector<SharedBows> sharedBowsBack(const std::map<int, Axes>& axes) {
+  Axes all;
+  for (const auto& [order, own] : axes) all.insert(all.end(), own.begin(), own.end());
+  std::vector<SharedBows> shared;
+  for (std::size_t back = 0; back <= kHindsight; ++back) shared.push_back(sharedBows(withoutLast(all, back)));
+  return shared;
+}
+
+OrderCourse setLength(OrderOutlook& o, const Axes& axes, const std::vector<SharedBows>& shared, const LayeredStatistics& statistics) {
   const OrderLayer& layer = *statistics.of(Quantity::Length).order(o.order);
   const QuantityLayers& ratios = statistics.of(Quantity::LengthRatio);
-  const Axes axes = axesOf(plants, statistics.schedule, o.order);
   const bool countsStages = !o.schedule.lasting;
   o.segments = layer.estimate.samples;
   const OrderCourse straight = straightCourse(layer.trend, layer.estimate.samples, o.schedule.axes);
@@ -192,7 +200,7 @@ OrderCourse setLength(OrderOutlook& o, std::span<const MeasuredPlant> plants, co
 
   Candidate best{LengthRule::Trend, straight};
   Judgement least{.miss = std::numeric_limits<double>::infinity()};
-  for (const Candidate& candidate : lastingCandidates(axes, straight, usualStep, countsStages)) {
+  for (const Candidate& candidate : lastingCandidates(axes, shared.front(), straight, usualStep, countsStages)) {
     const Judgement judgement = judged(candidate.rule, candidate.course, axes);
     // A later rule must be better by more than rounding; where too few misses judge, the segment below it is.
     if (judgement.samples >= kJudges && judgement.miss >= candidate.better * least.miss) continue;
@@ -202,7 +210,7 @@ OrderCourse setLength(OrderOutlook& o, std::span<const MeasuredPlant> plants, co
   }
   // Where that would have foretold the youngest clearly worse than they do each other, they go on among themselves.
   const std::vector<Candidate> recent = recentCandidates(axes, straight, countsStages);
-  const Hindsight hindsight = hindsightOf(axes, best, recent, countsStages);
+  const Hindsight hindsight = hindsightOf(axes, shared, best, recent, countsStages);
   if (hindsight.samples >= kFewHindsights && hindsight.chosen > kExact) {
     const double byChance = 2 * std::sqrt(2 / static_cast<double>(hindsight.samples));
     const auto leastRecent = std::min_element(hindsight.recent.begin(), hindsight.recent.end());
@@ -213,9 +221,9 @@ OrderCourse setLength(OrderOutlook& o, std::span<const MeasuredPlant> plants, co
       least.alike = hindsight.chosen;
     }
   }
-  o.length = {best.rule, best.course.along, std::exp(best.course.step), std::exp(best.course.curve), least.alike, least.samples};
+  o.length = {best.rule, best.course.along, std::exp(best.course.step), std::exp(best.course.curve), best.course.bow, least.alike, least.samples};
   // Levels are told by the order's course; only what goes on from the segment below has a step of its own.
-  const OrderCourse course = best.rule == LengthRule::Last && best.course.curve == 0 ? straight : best.course;
+  const OrderCourse course = best.rule == LengthRule::Last && !best.course.bends() ? straight : best.course;
   o.usualLength = std::exp(course.start);
   return course;
 }

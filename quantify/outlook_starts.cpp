@@ -11,9 +11,10 @@ namespace axil::quantify {
 
 namespace {
 
-/// How a new axis began, in logarithms: its first length, alone and against its bearer's length and level.
+/// How a new axis began, in logarithms: its first length, alone and against its order's course, its bearer's length and level.
 struct Start {
   double own = 0;
+  double stage = 0;      ///< over its order's course in the stage in which it was made, where lengths follow that
   double bearer = 0;
   double level = 0;
   std::pair<int, std::size_t> arm{0, 0};  ///< number of axes at the node and which it is; (0, 0) where arms are alike
@@ -35,7 +36,8 @@ ArmPlaces placesOf(const std::vector<Arms>& all) {
 }
 
 /// Of the axes of orders from `low` to `high` that have a bearer.
-std::vector<Start> startsOf(std::span<const MeasuredPlant> plants, const Schedule& schedule, const std::map<int, OrderCourse>& courses, const ArmPlaces& arms, int low, int high) {
+std::vector<Start> startsOf(std::span<const MeasuredPlant> plants, const Outlook& outlook, const std::map<int, OrderCourse>& courses, const ArmPlaces& arms, int low, int high) {
+  const Schedule& schedule = outlook.statistics.schedule;
   std::vector<Start> starts;
   for (std::size_t p = 0; p < plants.size(); ++p) {
     const Measurements& m = *plants[p].measurements;
@@ -46,7 +48,9 @@ std::vector<Start> startsOf(std::span<const MeasuredPlant> plants, const Schedul
       const double own = std::log(m.at(axis.base()).length);
       const AxisLengths bearer = lengthsOf(plants[p], schedule.plants[p], structure.at(place.axis));
       const double level = courses.at(place.order).levelAt(bearer, bearer.logs.size(), static_cast<std::size_t>(place.rank));
-      Start start{own, own - std::log(m.at(*axis.bearer).length), own - level, {0, 0}};
+      const LengthOutlook& length = outlook.of(axis.order).length;
+      const double byStage = length.along == LengthsAlong::Stage ? length.at(lengthsOf(plants[p], schedule.plants[p], axis).begun) : 0;
+      Start start{own, own - byStage, own - std::log(m.at(*axis.bearer).length), own - level, {0, 0}};
       if (const auto arm = arms.find({p, axis.base()}); arm != arms.end()) start.arm = arm->second;
       starts.push_back(start);
     }
@@ -79,7 +83,7 @@ void choose(OrderOutlook& o, const std::vector<Start>& starts) {
   if (starts.empty()) return;
   std::vector<Start> alike = starts;  // what is usual for an order does not know arms
   for (Start& s : alike) s.arm = {0, 0};
-  const Fit usual = fitOf(alike, &Start::own), bearer = fitOf(starts, &Start::bearer), level = fitOf(starts, &Start::level);
+  const Fit usual = fitOf(alike, &Start::own), stage = fitOf(alike, &Start::stage), bearer = fitOf(starts, &Start::bearer), level = fitOf(starts, &Start::level);
   const bool few = starts.size() < 2;
   o.usualLength = std::exp(usual.centre);
   o.start = StartRule::Usual;
@@ -89,9 +93,14 @@ void choose(OrderOutlook& o, const std::vector<Start>& starts) {
     o.bearerRatio = std::exp(fit.centre);
     o.startMiss = fit.miss;
   };
+  if (o.length.along == LengthsAlong::Stage && (few || stage.miss < 0.98 * o.startMiss)) {
+    o.start = StartRule::Stage;
+    o.usualLength = std::exp(stage.centre);
+    o.startMiss = stage.miss;
+  }
   if (few || level.miss < 0.98 * o.startMiss) take(StartRule::Level, level);
   if (few || bearer.miss < 0.98 * o.startMiss) take(StartRule::Bearer, bearer);
-  if (o.start == StartRule::Usual) o.bearerRatio = std::exp(level.centre);
+  if (o.start == StartRule::Usual || o.start == StartRule::Stage) o.bearerRatio = std::exp(level.centre);
 }
 
 /// What an axis of `order` bears where arms differ.
@@ -132,17 +141,17 @@ void setStarts(Outlook& outlook, std::span<const MeasuredPlant> plants, const st
     OrderOutlook& o = outlook.orders[static_cast<std::size_t>(order)];
     setCollar(o, plants);
     const std::vector<Arms> arms = together ? every : armsOf(plants, order - 1, order - 1, ArmsBy::Lean);
-    const std::vector<Start> starts = startsOf(plants, outlook.statistics.schedule, courses, placesOf(arms), order, order);
+    const std::vector<Start> starts = startsOf(plants, outlook, courses, placesOf(arms), order, order);
     choose(o, starts);
     if (order > 0 && !together) setArms(outlook.orders[static_cast<std::size_t>(order - 1)], plants, arms, starts, o.start);
   }
   if (!together || top < 1) return;
-  const std::vector<Start> starts = startsOf(plants, outlook.statistics.schedule, courses, placesOf(every), 1, top);
+  const std::vector<Start> starts = startsOf(plants, outlook, courses, placesOf(every), 1, top);
   OrderOutlook above = outlook.orders.back();
   above.order = top + 1;
   choose(above, starts);
   // Lengths usual for an order below say nothing here.
-  if (above.start == StartRule::Usual) {
+  if (above.start == StartRule::Usual || above.start == StartRule::Stage) {
     const Fit level = fitOf(starts, &Start::level);
     above.start = StartRule::Level;
     above.bearerRatio = std::exp(level.centre);

@@ -24,6 +24,7 @@
 #include "quantify/fates.hpp"       // what becomes of an apex, by the rank of its node
 #include "quantify/arms.hpp"        // axes that leave a node together and differ
 #include "quantify/layers.hpp"      // statistics by order and rank, of one plant or many
+#include "quantify/bow.hpp"         // laws by which lengths rise to a level, fall to one or leave it
 #include "quantify/outlook.hpp"     // what the next stages will be like
 #include "quantify/distribution.hpp" // a number, normal, even, or a table
 #include "quantify/family.hpp"      // the process that plants look like samples of

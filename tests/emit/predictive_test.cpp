@@ -238,6 +238,55 @@ TEST(PredictiveGrammar, EveryStageAddsWhatTheRuleOfThePlantAdds) {
   }
 }
 
+/// A trunk of `nodes` nodes with a straight branch at every third, whose segments are as long as the law says for the stage in which they were made; branches a half of it.
+Skeleton byAge(int nodes, double (*law)(int)) {
+  std::vector<glm::dvec3> trunk{{0, 0, 0}};
+  for (int i = 0; i < nodes; ++i) trunk.push_back(trunk.back() + glm::dvec3{0, law(i), 0});
+  Skeleton plant = test::chainThrough(trunk);
+  for (int i = 1; i < nodes; i += 3) {
+    const double a = 2.4 * i;
+    std::vector<glm::dvec3> side;
+    glm::dvec3 at = trunk[static_cast<std::size_t>(i)];
+    for (int stage = i; stage < nodes; ++stage) side.push_back(at += 0.5 * law(stage) * glm::dvec3{0.6 * std::cos(a), 0.8, 0.6 * std::sin(a)});
+    test::addStem(plant, StemId{1}, NodeId{i + 1}, side);
+  }
+  return plant;
+}
+
+TEST(PredictiveGrammar, LengthsGoOnByTheLawOfThePlantsAge) {
+  struct Law {
+    const char* name;
+    double (*at)(int stage);
+  };
+  const Law laws[] = {{"rise to a level", [](int i) { return 0.1 * (1 - 0.9 * std::exp(-i / 3.0)); }},
+                      {"rise by the logistic law", [](int i) { return 0.1 / (1 + std::exp(5.0 - i)); }},
+                      {"fall by the logistic law", [](int i) { return 0.1 / (1 + std::exp((i - 9.0) / 1.5)); }},
+                      {"rise by Gompertz' law", [](int i) { return 0.1 * std::exp(-3 * std::exp(-i / 3.0)); }},
+                      {"fall to a level", [](int i) { return 0.03 + 0.1 * std::exp(-i / 3.0); }},
+                      {"swell and dwindle", [](int i) { return 0.1 * std::exp(-(i - 6) * (i - 6) / 30.0); }}};
+  constexpr int kMeasured = 12, kAhead = 4;
+  for (const Law& law : laws) {
+    SCOPED_TRACE(law.name);
+    const Measurements m = valueOf(quantify::measure(byAge(kMeasured, law.at)));
+    const simeco::Plant plant = grownUp(valueOf(predictiveGrammar(m, {}, {.stages = kAhead})));
+    // What the trunk and its branches add in each stage, in one heap: every new length is that of one of the stages, of a trunk or of a branch.
+    const auto measured = segmentOrgans(plant, m.segments.size());
+    std::vector<double> fresh;
+    for (const simeco::Organ& o : plant.organs)
+      if (o.kind == simeco::OrganKind::Stem && o.length > 1e-6 && std::find(measured.begin(), measured.end(), &o) == measured.end()) fresh.push_back(o.length);
+    const auto perStage = fresh.size() / kAhead;
+    EXPECT_GE(perStage, 5u);
+    std::vector<double> expected;
+    for (int stage = kMeasured; stage < kMeasured + kAhead; ++stage) expected.insert(expected.end(), {law.at(stage), 0.5 * law.at(stage)});
+    for (const double length : fresh) {
+      double nearest = 1;
+      for (const double e : expected) nearest = std::min(nearest, std::abs(length / e - 1));
+      EXPECT_LT(nearest, 0.01) << length;
+    }
+    for (const double e : expected) EXPECT_TRUE(std::any_of(fresh.begin(), fresh.end(), [e](double length) { return std::abs(length / e - 1) < 0.01; })) << "none of " << e;
+  }
+}
+
 TEST(PredictiveGrammar, NoPathGetsLongerThanSaid) {
   const std::uint64_t seed = 55;
   std::cout << "seed " << seed << "\n";

@@ -40,6 +40,7 @@ struct Habit {
   int module = 0;              ///< segments after which an axis forks; 0: never
   std::function<double(int, int)> branching = [](int, int) { return 0.6; };
   std::function<double(int)> byAge = [](int) { return 1.0; };   ///< a factor of all lengths made in a stage of the plant
+  std::function<double(int)> byRank = [](int) { return 1.0; };  ///< and one of lengths at a rank of any axis
   std::function<double(int)> rate = [](int) { return 1.0; };
   std::function<int(int)> most = [](int) { return 1000; };
   std::function<std::vector<Sprout>(Rng&)> sprouts = [](Rng& rng) { return std::vector<Sprout>{{rng.normal(50, 4), 0, 0.6}}; };
@@ -115,7 +116,7 @@ class Sequence {
   void grow(Apex& apex) {
     if (apex.rank >= habit_.most(apex.order)) apex.alive = false;
     if (!apex.alive || rng_.uniform() >= habit_.rate(apex.order)) return;
-    const double ageless = apex.length * std::exp(rng_.normal(0, habit_.noise)), length = ageless * habit_.byAge(stage_);
+    const double ageless = apex.length * std::exp(rng_.normal(0, habit_.noise)), length = ageless * habit_.byAge(stage_) * habit_.byRank(apex.rank);
     nodes_.push_back({nodes_[apex.node].at + apex.frame.direction.unit() * length, stage_});
     apex.node = nodes_.size() - 1;
     stems_[apex.stem].nodes.push_back(apex.node);
