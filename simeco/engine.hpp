@@ -42,6 +42,8 @@ struct EngineOptions {
   Host host = {};
 };
 
+class ImageReader;  ///< engine_image.hpp
+
 class Engine {
  public:
   static Result<std::shared_ptr<Engine>> create(std::shared_ptr<const Program> program, EngineOptions options);
@@ -66,6 +68,8 @@ class Engine {
   [[nodiscard]] Failure tooManySteps(const std::optional<std::int64_t>& count) const;
   /// The homomorphism of `string`, which must be one that this engine made.
   [[nodiscard]] Result<Image> imageOf(const ModuleString& string) const;
+  /// The same for any stretch of a finished string by itself; null where the rules need more than a module's own parameters.
+  [[nodiscard]] std::unique_ptr<ImageReader> imageReader() const;
 
   [[nodiscard]] const ModuleString& string() const;
   [[nodiscard]] ModuleString takeString();

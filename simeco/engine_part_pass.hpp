@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// PartPass: one thread's part of a step of the plain way. Its inner loops, `rewriteBytes` and `rewrite`, do what nearly all modules
-/// need; what is rarer (rules that must be tried, decomposition) follows below. Private to engine_plain.cpp.
+/// need; what is rarer stands in engine_part_rules and engine_part_decompose. Private to engine_plain.cpp.
 
 #include "simeco/engine_fringe.hpp"
 #include "simeco/engine_state.hpp"
@@ -103,28 +103,7 @@ class PartPass {
 
   /// Who is to the right of each module; `pairs`: beside the module itself, in one byte.
   template <bool pairs>
-  void readRightCodes(std::size_t begin, std::size_t end) {
-    RightFringe fringe(plans_, old_.codes, end);
-    SymbolCode* const right = s_.rightCodes.data();
-    const SymbolCode* const codes = old_.codes.data();
-    const NearestTurn* const turns = plans_.rightTurns.data();
-    lane_.stack.clear();
-    Levels levels(lane_.stack);
-    SymbolCode next = fringe.nearest();
-    constexpr std::size_t atOnce = 4096;
-    for (std::size_t to = end; to > begin;) {
-      const std::size_t from = to - std::min(to - begin, atOnce);
-      SymbolCode* top = levels.roomFor(to - from);
-      const SymbolCode* const floor = levels.floor();
-      for (std::size_t i = to; i-- > from;) {
-        const SymbolCode code = codes[i];
-        right[i] = pairs ? static_cast<SymbolCode>(code << 4 | next) : next;
-        next = nearestBehind(turns[code], next, top, floor, fringe);
-      }
-      levels.keep(top);
-      to = from;
-    }
-  }
+  void readRightCodes(std::size_t begin, std::size_t end);
 
   template <bool withParameters, bool identified, bool withLeft, bool withRight>
   void blocks(std::size_t begin, std::size_t end) {
@@ -135,40 +114,9 @@ class PartPass {
 
   /// Block by block: room for the longest that a block can become is made before it, so that nothing inside has to ask.
   template <class Rewrite>
-  void eachBlock(std::size_t begin, std::size_t end, Rewrite rewriteBlock) {
-    constexpr std::size_t blockModules = 1 << 14;
-    // Short strings in short blocks: the room for the longest a block can become shall stay small beside the string.
-    const std::size_t most = std::clamp<std::size_t>((end - begin) / 16, 16, 2048);
-    const std::size_t block = std::clamp<std::size_t>(blockModules / std::max(plans_.longest, plans_.most), 1, most);
-    room_ = block;
-    const std::size_t bytesLeft = s_.bytesLeft();
-    LeftFringe fringe(plans_, old_.codes, begin);
-    lane_.stack.clear();
-    SymbolCode last = plans_.leftCodes ? fringe.nearest() : SymbolCode{0};
-    std::size_t looks = 0;
-    std::size_t before = 0;
-    for (std::size_t at = begin; at < end && !lane_.ended(); at += block) {
-      const std::size_t to = std::min(end, at + block);
-      Arrays& out = *lane_.out;
-      const std::size_t modules = to - at;
-      out.codes.reserveMore(out.codes.size() + modules * plans_.longest);
-      out.parameters.reserveMore(out.parameters.size() + (plans_.parameters ? modules * plans_.most : 0));
-      if (identified_) out.identities.reserve(out.codes.capacity());
-      endsOfRoom();
-      last = rewriteBlock(at, to, last, fringe);
-      if (lane_.ended()) return;
-      if (out.codes.size() > s_.options.limits.modules) lane_.limit = Lane::Limit::Modules;
-      const std::size_t now = out.used();
-      if (s_.written.fetch_add(now - before, std::memory_order_relaxed) + (now - before) > bytesLeft) lane_.limit = Lane::Limit::Bytes;
-      before = now;
-      constexpr std::size_t betweenLooks = 64;
-      if (++looks % betweenLooks == 0) look();
-    }
-  }
+  void eachBlock(std::size_t begin, std::size_t end, Rewrite rewriteBlock);
   /// Whether to go on at all.
-  void look() {
-    if (s_.options.watch.cancelled() || s_.shared.late()) lane_.limit = Lane::Limit::Time;
-  }
+  void look();
 
   // ---- strings without parameters (engine_part_bytes.hpp)
 
@@ -335,84 +283,34 @@ class PartPass {
     return fine;
   }
 
-  const QuickSuccessor* firstThatHolds(const Plan& plan, const double* in, bool& fine) {
-    for (const QuickSuccessor* choice : plan.choices) {
-      const CompiledRule& rule = *choice->rule;
-      const bool holds = !rule.hasCondition || machine_.value(rule.condition, const_cast<double*>(in)) != 0;
-      if (holds) return choice;
-      if (rule.condition.kind == Term::Kind::Coded && machine_.trouble()) {
-        fine = inTrouble(rule);
-        return nullptr;
-      }
-    }
-    return nullptr;
-  }
-  std::size_t tryAny(const Plan& plan, SymbolCode code, std::size_t at, std::size_t parameters) {
-    const auto& rules = program_.main().productions.rules;
-    const auto& numbers = candidates(*plan.index, pen_.in);
-    if (stochastic_) return tryByWeight(numbers, code, at, parameters);
-    return tryRules(numbers, [&](std::uint32_t number) { return &rules[number]; }, code, at, parameters);
-  }
+  const QuickSuccessor* firstThatHolds(const Plan& plan, const double* in, bool& fine);
+  std::size_t tryAny(const Plan& plan, SymbolCode code, std::size_t at, std::size_t parameters);
 
   /// The left neighbour of what follows a module.
-  SymbolCode leftAfter(std::uint8_t role, SymbolCode code, SymbolCode last, LeftFringe& fringe) {
-    switch (role) {
-      case Plans::Considered: return code;
-      case Plans::Ignored: return last;
-      case Plans::Opens: lane_.stack.push(last); return last;
-      default: break;
-    }
-    if (lane_.stack.size() == 0) {
-      fringe.leave();
-      return fringe.nearest();
-    }
-    const SymbolCode before = lane_.stack[lane_.stack.size() - 1];
-    lane_.stack.setSize(lane_.stack.size() - 1);
-    return before;
-  }
+  SymbolCode leftAfter(std::uint8_t role, SymbolCode code, SymbolCode last, LeftFringe& fringe);
 
-  bool inTrouble(const CompiledRule& rule) {
-    lane_.error = s_.failure(*machine_.trouble(), &rule).error;
-    return false;
-  }
+  // ---- rules that must be tried (engine_part_rules.hpp)
 
+  bool inTrouble(const CompiledRule& rule);
   /// The parameters of a successor.
-  bool compute(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals) {
-    const std::size_t count = successor.terms.size();
-    const Term* const terms = successor.terms.data();
-    for (std::size_t i = 0; i < count; ++i) pen_.numbers[i] = machine_.value(terms[i], locals);
-    if (machine_.trouble()) return inTrouble(rule);
-    if (single_)
-      for (std::size_t i = 0; i < count; ++i) pen_.numbers[i] = static_cast<double>(static_cast<float>(pen_.numbers[i]));
-    if (finite_ && !successor.constant) {
-      double sum = 0;  // 0 * x is 0 for every finite x, nan for the others
-      for (std::size_t i = 0; i < count; ++i) sum += 0 * pen_.numbers[i];
-      if (sum != 0) {
-        machine_.giveUp(ErrorCode::NoAnswer, "a parameter that is not a finite number");
-        return inTrouble(rule);
-      }
-    }
-    pen_.numbers += count;
-    return true;
-  }
-  bool writeSuccessor(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, std::size_t at) {
-    rule_ = &rule;
-    if (plans_.decomposes && decomposes(successor)) return list(rule, successor, locals, old_.who(at), 0) && decompose(at);
-    const std::size_t length = successor.codes.size();
-    const SymbolCode* const codes = successor.codes.data();
-    for (std::size_t i = 0; i < length; ++i) pen_.to[i] = codes[i];
-    pen_.to += length;
-    if (identified_) {
-      writeChildren(pen_.who, old_.who(at), successor.keys.data(), length);
-      pen_.who += length;
-    }
-    return successor.terms.empty() || compute(rule, successor, locals);
-  }
+  bool compute(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals);
+  bool writeSuccessor(const CompiledRule& rule, const CompiledSuccessor& successor, double* locals, std::size_t at);
   /// A rule with one successor.
-  bool write(const CompiledRule& rule, double* locals, std::size_t at) {
-    if (rule.random) machine_.setRandom(successors_.split(step_, old_.who(at)));
-    return writeSuccessor(rule, rule.successors.front(), locals, at);
-  }
+  bool write(const CompiledRule& rule, double* locals, std::size_t at);
+  /// One of a rule's successors, by weight.
+  const CompiledSuccessor* choose(const CompiledRule& rule, double* locals);
+  bool fire(const CompiledRule& rule, double* locals, std::size_t at);
+  double weight(const CompiledSuccessor& successor, double* locals);
+  std::size_t drawn(const Plan& plan, std::size_t at) const { return chosen(plan.weights, plan.sum * choices_.split(step_, old_.who(at)).uniform()); }
+  /// Whether a rule applies to the module at hand; `locals` is where its parameters are then: the string itself, where the rule
+  /// has no contexts with parameters.
+  bool applies(const CompiledRule& rule, std::size_t at, std::size_t parameters, double*& locals, double* frame);
+  /// The first of the rules that applies fires; else the module is copied. How many fired: 0 or 1.
+  template <class Rules, class RuleOf>
+  std::size_t tryRules(const Rules& rules, RuleOf ruleOf, SymbolCode code, std::size_t at, std::size_t parameters);
+  std::size_t tryByWeight(const std::vector<std::uint32_t>& numbers, SymbolCode code, std::size_t at, std::size_t parameters);
+  /// No rule applied: none fired.
+  std::size_t keepOrCopyAny(SymbolCode code, std::size_t at);
 
   // ---- quick decomposition: rules that ask for a module's own parameters; each module is written where it belongs at once ------
 
@@ -459,96 +357,6 @@ class PartPass {
   const CompiledRule* decomposing(const RuleTable& table, const Cursor& cursor, std::size_t count, std::size_t at);
   bool expand(const CompiledRule& rule, std::size_t count);
 
-  /// One of a rule's successors, by weight.
-  const CompiledSuccessor* choose(const CompiledRule& rule, double* locals) {
-    if (rule.successors.size() == 1) return &rule.successors.front();
-    weights_.clear();
-    double sum = 0;
-    for (const CompiledSuccessor& successor : rule.successors) {
-      weights_.push_back(weight(successor, locals));
-      sum += weights_.back();
-    }
-    if (machine_.trouble()) inTrouble(rule);
-    if (machine_.trouble()) return nullptr;
-    return &rule.successors[chosen(weights_, sum * machine_.rng().uniform())];
-  }
-  bool fire(const CompiledRule& rule, double* locals, std::size_t at) {
-    if (rule.successors.size() == 1) return write(rule, locals, at);
-    machine_.setRandom(successors_.split(step_, old_.who(at)));
-    const CompiledSuccessor* successor = choose(rule, locals);
-    return successor != nullptr && writeSuccessor(rule, *successor, locals, at);
-  }
-
-  double weight(const CompiledSuccessor& successor, double* locals) {
-    const double w = machine_.value(successor.weight, locals);
-    if (!machine_.trouble() && !(w >= 0)) machine_.giveUp(ErrorCode::NoAnswer, "a probability that is negative or no number");
-    return w;
-  }
-  std::size_t drawn(const Plan& plan, std::size_t at) const { return chosen(plan.weights, plan.sum * choices_.split(step_, old_.who(at)).uniform()); }
-
-  /// Whether a rule applies to the module at hand; `locals` is where its parameters are then: the string itself, where the rule
-  /// has no contexts with parameters.
-  bool applies(const CompiledRule& rule, std::size_t at, std::size_t parameters, double*& locals, double* frame) {
-    for (const Demand& demand : rule.predecessor.front().demands)
-      if (pen_.in[demand.offset] != demand.value) return false;
-    locals = const_cast<double*>(pen_.in);
-    if (rule.bound > parameters) {
-      copyNumbers(frame, pen_.in, parameters);
-      locals = frame;
-    }
-    if (matched_ != Matched::ByTable && !matcher_.contexts(rule, at, at, locals)) return false;
-    const bool holds = !rule.hasCondition || machine_.value(rule.condition, locals) != 0;
-    if (machine_.trouble()) return inTrouble(rule);
-    return holds;
-  }
-
-  /// The first of the rules that applies fires; else the module is copied. How many fired: 0 or 1.
-  template <class Rules, class RuleOf>
-  std::size_t tryRules(const Rules& rules, RuleOf ruleOf, SymbolCode code, std::size_t at, std::size_t parameters) {
-    matched_ = std::is_same_v<Rules, std::vector<const CompiledRule*>> ? Matched::ByTable : Matched::NotYet;
-    if (s_.drawsConditions) machine_.setRandom(choices_.split(step_, old_.who(at)));
-    for (const auto& candidate : rules) {
-      const CompiledRule& rule = *ruleOf(candidate);
-      double* locals = nullptr;
-      if (applies(rule, at, parameters, locals, lane_.locals.data())) {
-        fire(rule, locals, at);
-        return 1;
-      }
-      if (lane_.ended()) return 0;
-    }
-    return keepOrCopyAny(code, at);
-  }
-
-  std::size_t tryByWeight(const std::vector<std::uint32_t>& numbers, SymbolCode code, std::size_t at, std::size_t parameters) {
-    matched_ = Matched::NotYet;
-    machine_.setRandom(choices_.split(step_, old_.who(at)));
-    if (lane_.frames.size() < numbers.size() * frame_) lane_.frames.resize(numbers.size() * frame_);
-    lane_.applicable.clear();
-    weights_.clear();
-    double sum = 0;
-    for (const std::uint32_t number : numbers) {
-      const CompiledRule& rule = program_.main().productions.rules[number];
-      double* locals = nullptr;
-      if (applies(rule, at, parameters, locals, lane_.frames.data() + lane_.applicable.size() * frame_)) {
-        weights_.push_back(weight(rule.successors.front(), locals));
-        if (machine_.trouble()) return inTrouble(rule);
-        sum += weights_.back();
-        lane_.applicable.emplace_back(&rule, locals);
-      }
-      if (lane_.ended()) return 0;
-    }
-    if (weights_.empty()) return keepOrCopyAny(code, at);
-    const auto& [rule, locals] = lane_.applicable[chosen(weights_, sum * machine_.rng().uniform())];
-    write(*rule, locals, at);
-    return 1;
-  }
-
-  /// No rule applied: none fired.
-  std::size_t keepOrCopyAny(SymbolCode code, std::size_t at) {
-    identified_ ? keepOrCopy<true>(pen_, plans_.hot[code], code, at) : keepOrCopy<false>(pen_, plans_.hot[code], code, at);
-    return 0;
-  }
-
   enum class Matched { NotYet, ByTable };
 
   Engine::State& s_;
@@ -578,5 +386,7 @@ class PartPass {
 
 }  // namespace axil::simeco
 
+#include "simeco/engine_part_blocks.hpp"
+#include "simeco/engine_part_rules.hpp"
 #include "simeco/engine_part_bytes.hpp"
 #include "simeco/engine_part_decompose.hpp"

@@ -40,6 +40,13 @@ struct Arrays {
   }
 };
 
+/// The image of a string or of a stretch of it: its modules, the number of the module that each comes from, the rule that wrote it.
+struct ImagePiece {
+  Arrays modules;
+  std::vector<std::uint32_t> source;
+  std::vector<std::int32_t> drawnBy;
+};
+
 /// Modules still to be looked up: [at, end) of the stack of lists, made by `depth` nested applications.
 struct Cursor {
   std::size_t at = 0;

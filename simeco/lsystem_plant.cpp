@@ -1,174 +1,179 @@
 #include "simeco/lsystem_plant.hpp"
 
-#include "base/large_array.hpp"
+#include "simeco/engine.hpp"
+#include "simeco/engine_image.hpp"
+#include "simeco/plant_maker.hpp"
+#include "simeco/turtle_commands.hpp"
+#include "simeco/turtle_parts.hpp"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <map>
-#include <tuple>
+#include <thread>
 
 namespace axil::simeco {
 
 namespace {
 
-/// Collects what the turtle draws. Widths stay as drawn; `finish` makes them lengths.
-class PlantMaker : public TurtleSink {
+using turtle::Stretch;
+using turtle::StringPart;
+using turtle::Turtle;
+using turtle::TurtleStand;
+
+/// Stretches of a string, drawn as its homomorphism says, made while they are read: an image may be many times as long as its string.
+class ImageInput : public turtle::TurtleInput {
  public:
-  PlantMaker(const Derivation& derivation, const Image& image, const LSystemView& view) : derivation_(derivation), image_(image), view_(view) {
-    std::array<std::uint8_t, 256> draws{}, outlines{};
-    for (std::size_t code = 0; code < image.string.symbols().size(); ++code) {
-      const std::string& letter = image.string.symbols()[code].letter;
-      draws[code] = letter == "F" || letter == "G" || letter == "~" ? 1 : 0;
-      outlines[code] = letter == "{" && image.string.symbols()[code].parameters == 0 ? 1 : 0;
+  ImageInput(const ModuleString& string, std::vector<Stretch> stretches, ImageReader& reader) : string_(string), stretches_(std::move(stretches)), reader_(reader) {}
+
+  bool more(std::size_t read, std::size_t parametersRead, turtle::TurtleWindow& window) override {
+    if (failed_ || next_ == stretches_.size()) return false;
+    forget(read, parametersRead);
+    const ImagePiece& piece = reader_.piece();
+    const std::size_t before = piece.source.size();
+    while (piece.source.size() < before + turtle::kLongestCommand && !failed_ && readNext()) {}
+    window = {piece.modules.codes.span(), piece.modules.parameters.data(), piece.source.data()};
+    made_ += piece.source.size() - before;
+    failed_ = failed_ || made_ > reader_.mostModules();
+    return !failed_;
+  }
+  [[nodiscard]] bool failed() const { return failed_; }
+  [[nodiscard]] std::size_t made() const { return made_; }
+
+ private:
+  bool readNext() {
+    constexpr std::size_t atOnce = 1 << 12;
+    if (next_ == stretches_.size()) return false;
+    Stretch& stretch = stretches_[next_];
+    const std::size_t count = std::min(atOnce, stretch.end - stretch.begin);
+    const auto codes = string_.codes().subspan(stretch.begin, count);
+    failed_ = !reader_.read(codes, string_.parameters().data() + stretch.parameter, stretch.begin);
+    for (const SymbolCode code : codes) stretch.parameter += static_cast<std::size_t>(string_.symbols()[code].parameters);
+    stretch.begin += count;
+    if (stretch.begin == stretch.end) ++next_;
+    return true;
+  }
+  /// Gives the room of what has been read back to what follows.
+  void forget(std::size_t modules, std::size_t parameters) {
+    ImagePiece& piece = reader_.piece();
+    forget(piece.modules.codes, modules);
+    forget(piece.modules.parameters, parameters);
+    piece.source.erase(piece.source.begin(), piece.source.begin() + static_cast<std::ptrdiff_t>(modules));
+    piece.drawnBy.erase(piece.drawnBy.begin(), piece.drawnBy.begin() + static_cast<std::ptrdiff_t>(modules));
+  }
+  template <class T>
+  static void forget(Buffer<T>& buffer, std::size_t count) {
+    if (buffer.size() > count) std::memmove(buffer.data(), buffer.data() + count, (buffer.size() - count) * sizeof(T));
+    buffer.setSize(buffer.size() - count);
+  }
+
+  const ModuleString& string_;
+  std::vector<Stretch> stretches_;
+  ImageReader& reader_;
+  std::size_t next_ = 0;
+  std::size_t made_ = 0;
+  bool failed_ = false;
+};
+
+/// What one turtle makes of its part of the string.
+struct Drawing {
+  std::unique_ptr<PlantMaker> maker;  ///< none where it failed
+  bool alone = false;                 ///< it is only good when there is no other part
+  std::size_t modules = 0;            ///< of the image
+};
+
+class PartDrawer {
+ public:
+  PartDrawer(const Derivation& derivation, const LSystemPlantOptions& options) : derivation_(derivation), options_(options) {}
+
+  [[nodiscard]] Drawing draw(const StringPart& part) const {
+    const std::unique_ptr<ImageReader> reader = derivation_.engine->imageReader(), pathReader = derivation_.engine->imageReader();
+    std::optional<TurtleStand> stand;
+    PathNotes notes;
+    if (!part.path.empty()) {
+      ImageInput path(derivation_.string, part.path, *pathReader);
+      Turtle turtle = turtleOn(path, notes);
+      auto reached = turtle.standAtEnd();
+      if (!reached || path.failed() || turtle.leavesBranch()) return {};
+      stand = *std::move(reached);
     }
-    std::size_t organs = 0, faces = 0;
-    for (const SymbolCode code : image.string.codes()) {
-      organs += draws[code];
-      faces += outlines[code];
-    }
-    growRoom(plant_.faces, faces);
-    growRoom(plant_.organs, organs);
-    organOf_.reserve(organs);
-  }
-
-  void segment(const TurtleSegment& s) override {
-    Organ organ;
-    organ.kind = OrganKind::Stem;
-    organ.style = style(OrganKind::Stem, s.colour, {});
-    if (s.parent) organ.parent = OrganId(organOf_[*s.parent]);
-    organ.branch = s.branch;
-    organ.base = {s.start};
-    place(organ, s.frame, s.end - s.start);
-    organ.radius = s.startWidth / 2;
-    organ.tipRadius = s.endWidth / 2;
-    origin(organ, s.module);
-    organOf_.push_back(static_cast<std::int32_t>(plant_.organs.size()));
-    reach(s.start);
-    reach(s.end);
-    plant_.organs.push_back(std::move(organ));
-  }
-
-  void surface(const TurtleSurface& s) override {
-    Organ organ;
-    const auto known = view_.surfaces.find(s.name);
-    const ViewSurface drawn = known == view_.surfaces.end() ? ViewSurface{.kind = OrganKind::Leaf, .model = std::string(1, s.name), .scale = 1} : known->second;
-    organ.kind = drawn.kind;
-    organ.style = style(drawn.kind, s.colour, drawn.model);
-    organ.branch = true;
-    organ.base = {s.frame.position};
-    place(organ, s.frame, s.frame.heading * (s.size.y * drawn.scale));
-    origin(organ, s.module);
-    reach(organ.tip().at);
-    plant_.organs.push_back(std::move(organ));
-  }
-
-  void polygon(const TurtlePolygon& p) override {
-    PlantFace face;
-    face.vertices.reserve(p.vertices.size());
-    for (const glm::dvec3& vertex : p.vertices) {
-      // f and . often record one point twice.
-      if (face.vertices.empty() || face.vertices.back().at != vertex) face.vertices.push_back({vertex});
-      reach(vertex);
-    }
-    if (face.vertices.size() > 1 && face.vertices.front() == face.vertices.back()) face.vertices.pop_back();
-    if (face.vertices.size() < 3) return;
-    face.style = style(OrganKind::Leaf, p.colour, {});
-    origin(face, p.module);
-    plant_.faces.push_back(std::move(face));
-  }
-
-  void sphere(const TurtleSphere& s) override {
-    PlantBall ball{{s.centre}, std::fabs(s.diameter) / 2, style(OrganKind::Fruit, s.colour, {}), -1, -1};
-    origin(ball, s.module);
-    reach(s.centre);
-    plant_.balls.push_back(ball);
-  }
-
-  void disc(const TurtleDisc& d) override {
-    PlantDisc disc{{d.centre}, PlantDirection::along(d.normal), std::fabs(d.diameter) / 2, style(OrganKind::Flower, d.colour, {}), -1, -1};
-    origin(disc, d.module);
-    reach(d.centre);
-    plant_.discs.push_back(disc);
-  }
-
-  Plant finish(const std::string& name, double pixelsAcross) {
-    plant_.name = name;
-    plant_.rules = derivation_.rules;
-    plant_.time = static_cast<double>(derivation_.modulesPerStep.size());
-    if (view_.lineStyle == LineStyle::Pixel) scaleWidths(extent() / std::max(pixelsAcross, 1.0));
-    return std::move(plant_);
+    Drawing drawing{.maker = std::make_unique<PlantMaker>(derivation_, options_.derive.view, std::move(notes.segments))};
+    makeRoom(*drawing.maker, part, *reader);
+    ImageInput own(derivation_.string, {part.own}, *reader);
+    Turtle turtle = turtleOn(own, *drawing.maker);
+    if (stand) turtle.startAt(*std::move(stand));
+    if (!turtle.run() || own.failed()) return {};
+    drawing.alone = turtle.leavesBranch();
+    drawing.modules = own.made();
+    return drawing;
   }
 
  private:
-  static void place(Organ& organ, const TurtleFrame& frame, const glm::dvec3& along) {
-    organ.length = glm::length(along);
-    const bool directed = PlantDirection::hasDirection(along);
-    organ.direction = PlantDirection::along(directed ? along : frame.heading);
-    organ.rAxis = across(organ.direction, frame.left, frame.up);
-    organ.adaxial = across(organ.direction, -frame.up, frame.left);
+  [[nodiscard]] Turtle turtleOn(turtle::TurtleInput& input, TurtleSink& sink) const {
+    return {derivation_.string.symbols(), input, options_.derive.view, sink, options_.derive.derive.watch};
   }
-  /// `wanted` made perpendicular to the organ; `otherwise` where it runs along it.
-  static PlantDirection across(PlantDirection direction, const glm::dvec3& wanted, const glm::dvec3& otherwise) {
-    const PlantDirection first = PlantDirection::along(wanted);
-    return perpendicularTo(direction, areParallel(direction, first) ? PlantDirection::along(otherwise) : first);
-  }
-
-  template <class Drawn>
-  void origin(Drawn& drawn, std::size_t imageModule) const {
-    const std::uint32_t module = image_.source[imageModule];
-    drawn.module = module;
-    if (module < derivation_.origins.size()) drawn.production = derivation_.origins[module].production;
-  }
-
-  std::int32_t style(OrganKind kind, int colour, const std::string& model) {
-    // Nearly every thing looks like the one before it.
-    if (!plant_.styles.empty()) {
-      const OrganStyle& last = plant_.styles[static_cast<std::size_t>(lastStyle_)];
-      if (last.kind == kind && last.stage == colour && last.model == model) return lastStyle_;
+  /// The first part takes in all others; room that is not touched costs nothing.
+  void makeRoom(PlantMaker& maker, const StringPart& part, const ImageReader& reader) const {
+    constexpr std::size_t mostOrgans = 4'000'000;
+    const std::array<std::size_t, 256> organsOf = reader.mostOf("FG~"), facesOf = reader.mostOf("{");
+    const std::size_t end = part.own.begin == 0 ? derivation_.string.size() : part.own.end;
+    std::size_t organs = 0, faces = 0;
+    for (const SymbolCode code : derivation_.string.codes().subspan(part.own.begin, end - part.own.begin)) {
+      organs += organsOf[code];
+      faces += facesOf[code];
     }
-    const auto [found, isNew] = styles_.try_emplace({kind, colour, model}, static_cast<std::int32_t>(plant_.styles.size()));
-    lastStyle_ = found->second;
-    if (!isNew) return found->second;
-    OrganStyle style;
-    style.kind = kind;
-    style.stage = colour;
-    style.model = model;
-    // What keeps the colour it started with looks as its kind does.
-    if (const auto painted = view_.colours.find(colour); painted != view_.colours.end()) style.colour = painted->second;
-    else if (colour != view_.colour) style.colour = colourOfIndex(colour);
-    plant_.styles.push_back(std::move(style));
-    return found->second;
-  }
-
-  void reach(const glm::dvec3& point) {
-    low_ = reached_ ? glm::min(low_, point) : point;
-    high_ = reached_ ? glm::max(high_, point) : point;
-    reached_ = true;
-  }
-  [[nodiscard]] double extent() const { return glm::length(high_ - low_); }
-
-  void scaleWidths(double factor) {
-    for (Organ& organ : plant_.organs) {
-      organ.radius *= factor;
-      if (organ.tipRadius) *organ.tipRadius *= factor;
-    }
+    maker.makeRoom(std::min(organs, mostOrgans), std::min(faces, mostOrgans));
   }
 
   const Derivation& derivation_;
-  const Image& image_;
-  const LSystemView& view_;
-  Plant plant_;
-  std::vector<std::int32_t> organOf_;  ///< of each segment
-  std::int32_t lastStyle_ = 0;
-  std::map<std::tuple<OrganKind, int, std::string>, std::int32_t> styles_;
-  glm::dvec3 low_{0, 0, 0};
-  glm::dvec3 high_{0, 0, 0};
-  bool reached_ = false;
+  const LSystemPlantOptions& options_;
 };
+
+std::size_t threadsFor(const Derivation& derivation, const LSystemPlantOptions& options) {
+  constexpr std::size_t most = 16;
+  const int asked = options.derive.derive.threads;
+  const std::size_t threads = asked > 0 ? static_cast<std::size_t>(asked) : std::thread::hardware_concurrency();
+  const std::size_t worthwhile = derivation.string.size() / std::max<std::size_t>(options.modulesPerThread, 1);
+  return std::clamp<std::size_t>(std::min(threads, worthwhile), 1, most);
+}
+
+using Makers = std::vector<std::unique_ptr<PlantMaker>>;
+
+/// Draws `parts` at once, a thread each; nothing where a turtle fails, or does what only a turtle that has read everything before may do.
+Makers drawnParts(const Derivation& derivation, const LSystemPlantOptions& options, const std::vector<StringPart>& parts, Workers& workers) {
+  const PartDrawer drawer(derivation, options);
+  std::vector<Drawing> drawings(parts.size());
+  workers.each([&](int k) {
+    if (static_cast<std::size_t>(k) < parts.size()) drawings[static_cast<std::size_t>(k)] = drawer.draw(parts[static_cast<std::size_t>(k)]);
+  });
+  Makers makers;
+  std::size_t modules = 0;
+  for (Drawing& drawing : drawings) {
+    if (!drawing.maker || (drawing.alone && parts.size() > 1)) return {};
+    modules += drawing.modules;
+    makers.push_back(std::move(drawing.maker));
+  }
+  return modules <= options.derive.derive.limits.modules ? std::move(makers) : Makers{};
+}
+
+/// Draws the string while its image is made, on several threads; nothing where one of both needs everything that stands before.
+Makers drawnInParts(const Derivation& derivation, const LSystemPlantOptions& options, Workers& workers) {
+  if (!derivation.engine->imageReader()) return {};
+  const auto parts = turtle::partsOf(derivation.string, static_cast<std::size_t>(workers.count()));
+  Makers makers = drawnParts(derivation, options, parts, workers);
+  if (makers.empty() && parts.size() > 1) makers = drawnParts(derivation, options, turtle::partsOf(derivation.string, 1), workers);
+  return makers;
+}
+
+/// The way that any string can be drawn, and that says what is wrong with one.
+Result<Makers> drawnWhole(const Derivation& derivation, const LSystemPlantOptions& options) {
+  const auto image = imageOf(derivation);
+  if (!image) return image.failure();
+  auto maker = std::make_unique<PlantMaker>(derivation, options.derive.view);
+  turtle::WholeString whole(image->string.codes(), image->string.parameters().data(), image->source.data());
+  Turtle turtle(image->string.symbols(), whole, options.derive.view, *maker, options.derive.derive.watch);
+  if (const auto report = turtle.run(); !report) return report.failure();
+  Makers makers;
+  makers.push_back(std::move(maker));
+  return makers;
+}
 
 }  // namespace
 
@@ -180,12 +185,19 @@ glm::dvec4 colourOfIndex(int index) {
 }
 
 Result<Plant> plantOfDerivation(const Grammar& grammar, const Derivation& derivation, const LSystemPlantOptions& options) {
-  const auto image = imageOf(derivation);
-  if (!image) return image.failure();
-  PlantMaker maker(derivation, *image, options.derive.view);
-  const auto report = interpret(image->string, options.derive.view, maker, options.derive.derive.watch);
-  if (!report) return report.failure();
-  return maker.finish(grammar.name, options.pixelsAcross);
+  if (!derivation.engine) return fail(ErrorCode::BadInput, "a plant needs a derivation, and nothing has been derived");
+  Workers workers(static_cast<int>(threadsFor(derivation, options)));
+  Makers makers = drawnInParts(derivation, options, workers);
+  if (makers.empty()) {
+    auto whole = drawnWhole(derivation, options);
+    if (!whole) return whole.failure();
+    makers = *std::move(whole);
+  }
+  Plant plant = PlantJoiner(std::move(makers)).join(workers, options.pixelsAcross);
+  plant.name = grammar.name;
+  plant.rules = derivation.rules;
+  plant.time = static_cast<double>(derivation.modulesPerStep.size());
+  return plant;
 }
 
 Result<Plant> plantOfLSystem(const Grammar& grammar, const LSystemPlantOptions& options) {

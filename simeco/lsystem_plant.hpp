@@ -17,6 +17,7 @@ namespace axil::simeco {
 struct LSystemPlantOptions {
   DeriveLSystemOptions derive = {};
   double pixelsAcross = 600;
+  std::size_t modulesPerThread = 16384;  ///< fewer are not worth another thread; the plant does not depend on it
 };
 
 [[nodiscard]] Result<Plant> plantOfLSystem(const Grammar& grammar, const LSystemPlantOptions& options = {});

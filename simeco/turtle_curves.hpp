@@ -42,7 +42,9 @@ class Curves : protected Walk {
     const double type = t.value(0, 0);
     braces_.push_back({type >= 1 && type <= 4 ? static_cast<int>(type) : 0, module, std::exchange(points_, {})});
     braces_.back().points.clear();
-    if (braces_.back().curve != 0) record(1);
+    if (braces_.back().curve == 0) return;
+    leavesBranch_ = true;
+    record(1);
   }
   void closeBrace(const Token&) {
     flush();
@@ -142,6 +144,7 @@ class Curves : protected Walk {
   }
 
   void generalised(std::size_t module) {
+    leavesBranch_ = true;
     if (at_ >= codes_.size()) return;
     const Token t = take();
     CurvePoint now = here();
@@ -174,6 +177,7 @@ class Curves : protected Walk {
   // ---- bicubic patches
 
   void patch(std::size_t module) {
+    leavesBranch_ = true;
     if (at_ >= codes_.size()) return;
     const Token t = take();
     const double id = t.value(0, 0);

@@ -3,6 +3,7 @@
 /// The layers of the turtle, first: reading modules, moving under tropisms, segments with their widths, branches. Internal to the turtle.
 
 #include "simeco/turtle_frame.hpp"
+#include "simeco/turtle_input.hpp"
 
 #include <algorithm>
 #include <array>
@@ -41,11 +42,17 @@ struct CurvePoint {
   int strips = kStrips;
 };
 
+/// Where a turtle stands in the middle of a string, and what it goes back to at every ] that is still to come.
+struct TurtleStand {
+  TurtleState state;
+  std::vector<TurtleState> stack;
+  std::size_t segments = 0;                ///< drawn so far, as far as this turtle has drawn them
+};
+
 class Walk {
  public:
-  Walk(const ModuleString& string, const LSystemView& view, TurtleSink& sink, const Watch& watch)
-      : codes_(string.codes()), parameters_(string.parameters().data()), view_(view), sink_(sink), watch_(watch) {
-    const std::vector<Symbol>& symbols = string.symbols();
+  Walk(const std::vector<Symbol>& symbols, TurtleInput& input, const LSystemView& view, TurtleSink& sink, const Watch& watch)
+      : input_(input), view_(view), sink_(sink), watch_(watch) {
     for (std::size_t code = 0; code < symbols.size(); ++code)
       letters_[code] = {symbols[code].letter.size() == 1 ? symbols[code].letter[0] : '\0', static_cast<std::uint32_t>(symbols[code].parameters)};
     state_.width = view.lineWidth;
@@ -64,10 +71,34 @@ class Walk {
 
   // ---- the string
 
+  /// Whether a module follows; the window moves on where it ends.
+  bool follows() { return at_ < codes_.size() || refill(); }
+  bool refill() {
+    TurtleWindow window;
+    if (!input_.more(at_, static_cast<std::size_t>(parameters_ - firstParameter_), window)) return false;
+    codes_ = window.codes;
+    sources_ = window.sources;
+    parameters_ = firstParameter_ = window.parameters;
+    at_ = 0;
+    return !codes_.empty();
+  }
+  /// The number of the module at hand, by which what is drawn knows it.
+  [[nodiscard]] std::size_t number(std::size_t at) const { return sources_ == nullptr ? at : sources_[at]; }
+
   Token take() {
     const Letter letter = letters_[codes_[at_++]];
     const Token token{letter.letter, {parameters_, letter.parameters}};
     parameters_ += letter.parameters;
+    return token;
+  }
+  /// The letter that belongs to an @, ~ or ? before it; none at the end. One that is a bracket or brace has lost its meaning.
+  std::optional<Token> takeName() {
+    if (at_ >= codes_.size()) {
+      leavesBranch_ = true;
+      return std::nullopt;
+    }
+    const Token token = take();
+    leavesBranch_ = leavesBranch_ || token.letter == '[' || token.letter == ']' || token.letter == '{' || token.letter == '}';
     return token;
   }
   [[nodiscard]] char peek() const { return at_ >= codes_.size() ? '\0' : letters_[codes_[at_]].letter; }
@@ -186,7 +217,8 @@ class Walk {
   }
   /// Behind %: nothing is drawn up to the ] of this branch.
   void skipBranch() {
-    for (int depth = 0; at_ < codes_.size(); take()) {
+    leavesBranch_ = true;
+    for (int depth = 0; follows(); take()) {
       const char c = peek();
       if (c == ']' && depth-- == 0) return;
       if (c == '[') ++depth;
@@ -200,8 +232,11 @@ class Walk {
   };
 
   std::array<Letter, 256> letters_{};
-  std::span<const SymbolCode> codes_;
-  const double* parameters_;
+  TurtleInput& input_;
+  std::span<const SymbolCode> codes_;          ///< of the window at hand
+  const std::uint32_t* sources_ = nullptr;
+  const double* firstParameter_ = nullptr;
+  const double* parameters_ = nullptr;         ///< of the module at `at_`
   const LSystemView& view_;
   TurtleSink& sink_;
   const Watch& watch_;
@@ -213,6 +248,7 @@ class Walk {
   std::array<KnownAngle, 64> angles_;
   std::size_t unmatched_ = 0;
   bool broken_ = false;
+  bool leavesBranch_ = false;  ///< something was done that the ] of its branch does not undo
 };
 
 }  // namespace axil::simeco::turtle

@@ -24,6 +24,20 @@ void checkPrinting(const Grammar& grammar) {
   AXIL_ASSERT(print(again.grammar) == once, "printing is not stable");
 }
 
+/// By one turtle and by three.
+void checkDrawing(const Grammar& grammar, LSystemPlantOptions options) {
+  const auto one = plantOfLSystem(grammar, options);
+  if (!one) return AXIL_ASSERT(!one.error().message.empty(), "a failure says why");
+  options.derive.derive.threads = 3;
+  options.modulesPerThread = 1;
+  const auto three = plantOfLSystem(grammar, options);
+  if (!three) return;  // the time was over
+  AXIL_ASSERT(one->organs.size() == three->organs.size() && one->faces.size() == three->faces.size() && one->styles == three->styles, "more turtles draw something else");
+  for (std::size_t i = 0; i < one->organs.size(); ++i)
+    AXIL_ASSERT(one->organs[i].module == three->organs[i].module && one->organs[i].parent == three->organs[i].parent && one->organs[i].style == three->organs[i].style,
+                "more turtles draw other organs");
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -40,6 +54,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   LSystemPlantOptions grown;
   grown.derive.derive.threads = 1;
   grown.derive.derive.limits = {.modules = 20'000, .bytes = 1 << 24, .steps = 50, .loopIterations = 10'000, .seconds = 1};
-  if (const auto plant = plantOfLSystem(parsed.grammar, grown); !plant) AXIL_ASSERT(!plant.error().message.empty(), "a failure says why");
+  checkDrawing(parsed.grammar, grown);
   return 0;
 }
