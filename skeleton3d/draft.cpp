@@ -31,13 +31,17 @@ struct Ways {
   std::vector<std::ptrdiff_t> before;      ///< -1 at the collar and where no way leads
 };
 
+/// The further off the middle lines, the dearer; most where a view shows a stem alone. Where stems hide one another a view's middle line is
+/// that of all of them together and says little of each, so the view that fits least counts least.
 double costOf(const std::vector<CubeInView>& seen) {
-  double sum = 0;
+  constexpr double kFurthest = 2, kLeast = 0.3, kPriceOff = 3;  // cubes; against the other views; of a cube off
+  double sum = 0, most = 0;
   for (const CubeInView& v : seen) {
-    const double off = std::min<double>(v.off_px / v.cube_px, 3);
+    const double off = std::min<double>(v.off_px / v.cube_px, kFurthest);
     sum += off * off;
+    most = std::max(most, off * off);
   }
-  return 1 + 3 * sum / static_cast<double>(seen.size());
+  return 1 + kPriceOff * (sum - (1 - kLeast) * most) / (static_cast<double>(seen.size()) - (1 - kLeast));
 }
 
 bool comesBefore(glm::ivec3 a, glm::ivec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
