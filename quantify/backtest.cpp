@@ -178,7 +178,7 @@ BacktestOfPlant tested(const Outlook& outlook, const Measurements& early, const 
   const PlantStructure es = plantStructure(early, ends);
   const PlantStructure ls = plantStructure(late, ends);
   const std::vector<RuleTemplate> templates = templatesOf(early);
-  countOrgans(result, outlook, stages);
+  countOrgans(result, {static_cast<double>(early.segments.size()), static_cast<double>(leavesOf(early))}, outlook, stages);
   result.newSegments.truth = static_cast<double>(late.segments.size()) - static_cast<double>(early.segments.size());
   result.newLeaves.truth = static_cast<double>(leavesOf(late)) - static_cast<double>(leavesOf(early));
   const Organs last = lastStage(early, outlook.statistics.schedule.plants[outlook.plant], stages);

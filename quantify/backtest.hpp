@@ -29,7 +29,7 @@ struct ForetoldLength {
 };
 
 struct ForetoldCount {
-  double foretold = 0;    ///< the number of least mean percentage error against the grown plants
+  double foretold = 0;    ///< the number of least mean percentage error, of all organs, against the grown plants
   double mean = 0;        ///< of the grown plants
   double low = 0;         ///< whole numbers that hold 90 % of the grown plants, as nearly as whole numbers can
   double high = 0;

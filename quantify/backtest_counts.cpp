@@ -117,12 +117,12 @@ std::pair<double, double> holdingNinety(const std::vector<double>& sorted) {
   return best;
 }
 
-/// The number with the least mean percentage error against `sorted`: their median, each weighing as much as a miss of one costs there.
-double leastPercentage(const std::vector<double>& sorted) {
+/// The number with the least mean percentage error of all organs, `earlier` ones and new, against `sorted`: their median, each weighing as much as a miss of one costs there.
+double leastPercentage(const std::vector<double>& sorted, double earlier) {
   double all = 0, below = 0;
-  for (const double v : sorted) all += v > 0 ? 1 / v : 1;
+  for (const double v : sorted) all += 1 / (earlier + v);
   for (const double v : sorted) {
-    below += v > 0 ? 1 / v : 1;
+    below += 1 / (earlier + v);
     if (2 * below >= all) return v;
   }
   return sorted.back();
@@ -130,7 +130,7 @@ double leastPercentage(const std::vector<double>& sorted) {
 
 }  // namespace
 
-void countOrgans(BacktestOfPlant& result, const Outlook& outlook, int stages) {
+void countOrgans(BacktestOfPlant& result, const Organs& earlier, const Outlook& outlook, int stages) {
   std::vector<double> segments;
   std::vector<double> leaves;
   for (int g = 0; g < kGrown; ++g) {
@@ -139,15 +139,16 @@ void countOrgans(BacktestOfPlant& result, const Outlook& outlook, int stages) {
     segments.push_back(organs.segments);
     leaves.push_back(organs.leaves);
   }
-  const auto fill = [](ForetoldCount& count, std::vector<double> values) {
+  // No plant is without a segment; of leaves one stands for none.
+  const auto fill = [](ForetoldCount& count, std::vector<double> values, double before) {
     std::sort(values.begin(), values.end());
     for (const double v : values) count.mean += v / static_cast<double>(values.size());
-    count.foretold = leastPercentage(values);
+    count.foretold = leastPercentage(values, std::max(1.0, before));
     std::tie(count.low, count.high) = holdingNinety(values);
     for (const double v : values) count.chance += std::abs(v - count.foretold) / static_cast<double>(values.size());
   };
-  fill(result.newSegments, segments);
-  fill(result.newLeaves, leaves);
+  fill(result.newSegments, segments, earlier.segments);
+  fill(result.newLeaves, leaves, earlier.leaves);
 }
 
 }  // namespace axil::quantify

@@ -14,6 +14,7 @@ constexpr double kNormalMad = 1.4826;
 constexpr int kSteps = 50;
 constexpr int kRounds = 10;             // of a trend
 constexpr double kMostExtrapolation = 10;
+constexpr double kClear = 2;            // standard errors by which a layer is another thing than its parent
 constexpr double kNormalTail = 2.3;     // deviations beyond which plants are said to differ, 1 %
 
 /// Reorders `values`.
@@ -293,7 +294,9 @@ void pool(std::vector<Estimate*>& sisters, std::span<const double> expected) {
   for (std::size_t i = 0; i < sisters.size(); ++i) {
     const double unsure = variances[i];
     const double total = unsure + between * between;
-    sisters[i]->pooled = total > 0 ? unsure / total : 0;
+    // A layer that is clearly off its parent is another thing, and keeps to itself (the limited translation of Efron and Morris 1972).
+    const double clearly = off[i] * off[i] > kClear * kClear * unsure ? kClear * kClear * unsure / (off[i] * off[i]) : 1;
+    sisters[i]->pooled = total > 0 ? clearly * unsure / total : 0;
     sisters[i]->value = sisters[i]->own - sisters[i]->pooled * off[i];
   }
 }

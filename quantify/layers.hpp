@@ -11,7 +11,7 @@
 ///   its own standard error compares with how much sister layers differ (empirical Bayes). `pooled` says how much came from the parent.
 ///
 /// Lengths are in the first plant's unit; angles in radians; trends of sizes are of their logarithms, so a slope is a ratio per rank.
-/// Sources: Huber 1964; DerSimonian and Laird 1986; Efron and Morris 1975; the layers are future work of L-Grammar Generator 2005, chapter 4.
+/// Sources: Huber 1964; DerSimonian and Laird 1986; Efron and Morris 1972, 1975; the layers are future work of L-Grammar Generator 2005, chapter 4.
 
 #include "base/result.hpp"
 #include "quantify/branching.hpp"
