@@ -95,8 +95,8 @@ class Counter {
   Organs organs_;
 };
 
-/// The whole numbers between which the share of `sorted` nearest to 90 % lies, of intervals whose tails are alike. Aims a little higher, since the outlook is an estimate itself.
-constexpr double kAimed = 0.92;
+/// The whole numbers between which the share of `sorted` nearest to 90 % lies, of intervals whose tails are alike.
+constexpr double kHeld = 0.9;
 std::pair<double, double> holdingNinety(const std::vector<double>& sorted) {
   const double n = static_cast<double>(sorted.size());
   const double middle = medianOf(sorted);
@@ -108,7 +108,7 @@ std::pair<double, double> holdingNinety(const std::vector<double>& sorted) {
                                     std::pair(sorted[tail], sorted[sorted.size() - 1 - tail] - 1)}) {
       if (low > middle || high < middle) continue;
       const auto from = std::lower_bound(sorted.begin(), sorted.end(), low), to = std::upper_bound(sorted.begin(), sorted.end(), high);
-      const double off = std::abs(static_cast<double>(to - from) / n - kAimed);
+      const double off = std::abs(static_cast<double>(to - from) / n - kHeld);
       if (off >= least) continue;
       least = off;
       best = {low, high};
