@@ -67,6 +67,13 @@ bool ParagraphReader::isGathered(std::size_t i) const {
   return arrangement != nullptr && isOneOf(arrangement->name, {"whorled", "fascicled"});
 }
 
+// Whether the clause goes on to say how the leaves of one node stand.
+bool ParagraphReader::isGatheredAhead(std::size_t i) const {
+  for (; i < tokens_.size() && !isSentenceEnd(i) && !is(i, ";"); ++i)
+    if (found_[i].conceptAs("arrangement") != nullptr) return true;
+  return false;
+}
+
 bool ParagraphReader::leafIsMeant(std::size_t from, std::size_t to) const {
   for (std::size_t k = from; k < to; ++k)
     if (nounAt(k) != nullptr || isAny(k, {"針", "针"})) return true;
@@ -101,6 +108,12 @@ std::size_t ParagraphReader::readLeavesPerNode(std::size_t i, const NumberRange&
   if (perNode == 0) return at;  // the arrangement itself is read next
   // "3 or 4 in a whorl" says the arrangement too, where nothing before has said it.
   const bool said = last_.category != nullptr && last_.category->property == "arrangement" && last_.kept;
+  const bool three = range.low >= 3 && is(perNode - 1, "node") && !othersPerNode && !isGatheredAhead(perNode);
+  if (three && !said) {  // "leaves three at a node"
+    Trait trait = traitAt(i, perNode, "leaf", "arrangement");
+    trait.value = "whorled";
+    keep(std::move(trait), true);
+  }
   return isAny(perNode - 1, {"whorl", "verticil", "fascicle", "bundle", "cluster"}) && !said ? perNode - 1 : perNode;
 }
 

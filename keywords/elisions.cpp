@@ -1,6 +1,9 @@
 // Words that stand once for two statements, and words that another statement before them gives their sense.
 #include "keywords/paragraph.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace axil::keywords {
 
 // "3- or shallowly 5-lobed": where the range ends whose word the number before the hyphen shares; `end` itself where none does.
@@ -53,6 +56,38 @@ bool ParagraphReader::readTernate(std::size_t i) {
   keep(std::move(trait), true);
   last_.end = i + 1;
   return true;
+}
+
+// "margins entire or with a few blunt teeth": toothed, where nothing but adjectives stands between.
+bool ParagraphReader::readTeeth(std::size_t i, const Concept& owner) {
+  if (!is(i, "teeth") || !isOneOf(owner.name, {"leaf", "leaflet", "pinna"}) || scope_.piece != nullptr || !scope_.organInSentence) return false;
+  std::size_t at = i;
+  while (at > 0 && at + 6 > i && (looksAdjectival(at - 1) || hasTraitMeaning(at - 1) || isAny(at - 1, {"a", "few", "some", "several", "very", "obscure", "coarse", "fine", "blunt", "sharp", "broad", "shallow", "remote"}) || !qualifierOf(tokens_[at - 1].text).empty())) --at;
+  if (at == 0 || !is(at - 1, "with") || isNegated(at - 1)) return false;
+  Trait trait = traitAt(at, i + 1, owner.name, "margin");
+  trait.value = "dentate";
+  trait.which = scope_.which;
+  keep(std::move(trait), true);
+  return true;
+}
+
+// "in threes", "whorled in fours": leaves at a node. The token after it.
+std::size_t ParagraphReader::readInThrees(std::size_t i) {
+  constexpr std::array<std::string_view, 4> names{"threes", "fours", "fives", "sixes"};
+  if (!is(i, "in") || i + 1 >= tokens_.size() || scope_.organ == nullptr || !scope_.organInSentence || !isOneOf(scope_.organ->name, {"leaf", "branch", "leaflet"})) return 0;
+  const auto name = std::find(names.begin(), names.end(), tokens_[i + 1].text);
+  if (name == names.end()) return 0;
+  const double number = 3 + static_cast<double>(name - names.begin());
+  const bool said = last_.kept && last_.category != nullptr && last_.category->property == "arrangement" && last_.end == i;
+  addCount(i, i + 2, scope_.organ->name, {}, {{}, number, number, {}, i + 2, false}, "per node");
+  evidence_ += 1;
+  if (said) return i + 2;
+  Trait trait = traitAt(i, i + 2, scope_.organ->name, "arrangement");
+  trait.value = "whorled";
+  trait.qualifier = qualifierBefore(i);
+  keep(std::move(trait), false);
+  last_ = {i + 2, &categoryOf("arrangement"), {}, false, true, true};
+  return i + 2;
 }
 
 // "fascicled" in 穗狀圓錐花序, "corymbosely branched": how another inflorescence or a stem is built, and none of its own.

@@ -88,8 +88,9 @@ std::vector<Found> findPhrases(const std::vector<Token>& tokens) {
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const std::vector<Phrase>* phrases = phrasesWith(tokens[i].text);
     if (phrases == nullptr) continue;
+    const auto isOther = [&](const Phrase& phrase) { return phrase.words.front() != tokens[i].text && phrase.meanings.front().category->property == "foreign"; };  // "submerged" does not merge
     for (const Phrase& phrase : *phrases)
-      if (const std::size_t end = endOf(phrase, tokens, i); end != 0) {
+      if (const std::size_t end = endOf(phrase, tokens, i); end != 0 && !isOther(phrase)) {
         found[i] = {&phrase, i, end};
         break;
       }

@@ -60,6 +60,7 @@ std::size_t ParagraphReader::step(std::size_t i) {
     if (const std::size_t end = readDivisions(i)) return end;
     if (const std::size_t end = readCount(i)) return end;
   }
+  if (const std::size_t end = readInThrees(i)) return end;
   if (const std::size_t end = readNumerous(i)) return end;
   if (const std::size_t end = readAbsent(i)) return end;
   const Found& f = found_[i];

@@ -173,11 +173,14 @@ class ParagraphReader {
   void readElidedPinnate(std::size_t i, const LastTerm& now);
   void readElidedCut(std::size_t i, const LastTerm& now);
   bool readTernate(std::size_t i);
+  bool readTeeth(std::size_t i, const Concept& owner);
+  std::size_t readInThrees(std::size_t i);
   [[nodiscard]] bool isMannerOfAnother(std::size_t i, std::string_view value) const;
   void countVeins(std::size_t i);
 
   // counts.cpp
   [[nodiscard]] bool isGathered(std::size_t i) const;
+  [[nodiscard]] bool isGatheredAhead(std::size_t i) const;
   [[nodiscard]] std::size_t afterPerNode(std::size_t i) const;
   [[nodiscard]] bool leafIsMeant(std::size_t from, std::size_t to) const;
   [[nodiscard]] Measure measureAt(std::size_t i) const;

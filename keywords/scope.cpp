@@ -103,18 +103,20 @@ bool ParagraphReader::isLocative(std::size_t i) const {
 // "in the axils of leaves", "longer than petals", 與葉: an organ that is only named to place or compare another does not take over.
 bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   if (i == 0) return false;
-  std::size_t number = found_[i].end;  // "in racemes 5-10 cm long", "on a peduncle to 25 mm"
-  while (isAny(number, {"to", "up", "ca", "about"}) || (number > found_[i].end && is(number, "."))) ++number;
-  const bool isMeasuredItself = number < tokens_.size() && tokens_[number].kind == TokenKind::Number;
+  const auto isMeasuredFrom = [&](std::size_t number) { return number < tokens_.size() && tokens_[number].kind == TokenKind::Number; };
+  std::size_t reach = found_[i].end;  // "on a peduncle to 25 mm", but not "climbing by roots to 20 m"
+  while (nounAt(i) != nullptr && isOneOf(nounAt(i)->name, {"peduncle", "pedicel", "petiole", "stalk", "stipe"}) && isAny(reach, {"to", "up", "ca", "about", "."})) ++reach;
+  const bool isMeasuredItself = isMeasuredFrom(found_[i].end) || isMeasuredFrom(reach);  // "in racemes 5-10 cm long"
   std::size_t before = i - 1;
   if (before > 0 && isAny(before, {"the", "its", "each", "a"})) --before;
   while (before > 0 && (looksAdjectival(before) || (!isHan(i) && found_[before].conceptAs("which") != nullptr && nounAt(before) == nullptr) || isAny(before, {"lower", "upper", "young", "basal", "middle", "old", "lateral", "leaf", "short", "long", "spur", "juvenile", "fertile", "sterile", "flowering", "vegetative", "new",
-                                      "very", "leafless", "slender", "stout", "current", "previous", "year", "second", "adult", "subtending", "ultimate", "leafy", "terminal", "main", "mature", "same", "opposite"})))
+                                      "very", "leafless", "aerial", "slender", "stout", "current", "previous", "year", "second", "adult", "subtending", "ultimate", "leafy", "terminal", "main", "mature", "same", "opposite"})))
     --before;
   if (before > 0 && isAny(before, {"the", "its", "their"})) --before;  // "in the axils of the upper leaves"
   if (isHan(i) && isAny(before, {"每", "各"})) return scope_.organInSentence;
   if (isGoal(i)) return scope_.organInSentence;
   const std::size_t behind = found_[i].end;  // 莖下部者3-4枚輪生: which of the leaves
+  if (isHan(i) && isAny(behind, {"上", "下"}) && is(behind + 1, "者")) return scope_.organInSentence;
   if (isHan(i) && isAny(behind, {"上", "下", "中", "基", "頂", "顶"}) && is(behind + 1, "部") && is(behind + 2, "者")) return scope_.organInSentence;
   const bool tipOf = isHan(i) && last_.end == i && last_.kept && isAny(found_[i].end, {"端", "頂", "顶", "梢", "先"});  // 單生莖端
   if (tipOf) return scope_.organInSentence;
@@ -299,6 +301,13 @@ void ParagraphReader::noteOrgan(std::size_t i, const Concept& organ) {
   namedAt_[&organ] = i;
   const bool isTime = i > 0 && is(i - 1, "in") && isAny(i, {"fruit", "flower", "bud", "bloom", "leaf"}) && scope_.organInSentence;  // "elongating in fruit to 20 cm"
   if (isTime) return;
+  const std::size_t of = i > 0 && isAny(i - 1, {"the", "its"}) ? i - 1 : i;
+  if (scope_.place != nullptr && of > 0 && is(of - 1, "of") && scope_.organEnd == of - 1) {  // "margins of leaflets spinose"
+    scope_.organ = &organ;
+    scope_.piece = nullptr;
+    scope_.organEnd = found_[i].end;
+    return;
+  }
   if (isPlaceOnly(i) || isOfPlaceBefore(i)) {
     placeOnlyEnd_ = found_[i].end;
     return;
@@ -338,6 +347,7 @@ void ParagraphReader::notePiece(std::size_t i, const Concept& piece) {
   const bool bareTube = is(i, "管") && found_[i].end == i + 1 && !(i > 0 && tokens_[i - 1].kind == TokenKind::Sign);  // 導管
   if (isWeak || isPlaceOnly(i) || placeOnlyEnd_ == found_[i].end || bareTube) return;
   const Concept* owner = ownerOf(piece, i);
+  if (readTeeth(i, *owner)) return;
   if (!found_[i].as("organ")->everyday) weighNoun(i, *owner);
   scope_.organ = owner;
   scope_.piece = &piece;
@@ -358,6 +368,7 @@ void ParagraphReader::notePlace(std::size_t i, const Concept& place) {
   // 草本，基部分枝: where the plant branches.
   const bool ofPlant = scope_.organ != nullptr && isOneOf(scope_.organ->name, {"plant", "stem"});
   if (ofPlant && is(found_[i].end, "分") && is(found_[i].end + 1, "枝")) return;
+  if (ofPlant && i > 0 && (is(i - 1, "from") || (i > 1 && is(i - 1, "the") && is(i - 2, "from")))) return;  // "annual, branched from the base, 5-40 cm"
   // "cordate at base" has taken its place along; "at base cordate" opens one.
   if (isPlaceOfTermBefore(i)) {
     scope_.commaSincePlace = true;

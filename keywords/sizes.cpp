@@ -26,7 +26,10 @@ bool ParagraphReader::isHeightOfPlant(const Size& size) const {
 }
 
 // "adnate to the petiole for 1-2 mm", "free from ovary 2-4 mm": how far something reaches is no size of it.
-bool ParagraphReader::isExtent(std::size_t first) const { return first > 0 && (is(first - 1, "for") || (placeOnlyEnd_ == first && !isHan(first - 1))); }
+bool ParagraphReader::isExtent(std::size_t first) const {
+  const bool byMeans = first > 2 && (is(first - 2, "by") || is(first - 3, "by"));  // "climbing by roots to 20 m"
+  return first > 0 && (is(first - 1, "for") || (placeOnlyEnd_ == first && !isHan(first - 1) && !byMeans));
+}
 
 std::size_t ParagraphReader::readSizes(std::size_t i) {
   const std::vector<Size> sizes = sizesAt(tokens_, found_, i);
@@ -55,7 +58,7 @@ std::size_t ParagraphReader::readSizes(std::size_t i) {
     const Concept* ownWord = scope_.organEnd > 0 && isRightBehindOrgan(size.first) && size.dimension.empty() ? dimensionOfOrganWord() : nullptr;
     const std::string property = !size.dimension.empty() ? size.dimension : ownWord != nullptr ? ownWord->name : bare;
     // A bare size belongs to a whole plant only right behind its name: "Shrub 2-3 m", "Trees deciduous, to 25 m".
-    const bool isFar = i > scope_.organEnd + 8;
+    const bool isFar = i > scope_.organEnd + 14;
     if (size.dimension.empty() && property == "height" && isFar) continue;
     evidence_ += (size.dimension.empty() ? 0 : 0.5) + (isRightBehindOrgan(size.first) ? 1 : 0);
     if (organ->name == "plant" && property == "height" && isRightBehindOrgan(size.first)) {  // "tree up to 8 m high"

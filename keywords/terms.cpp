@@ -88,6 +88,9 @@ bool ParagraphReader::accepts(const Category& category, const Concept* organ) co
 
 // Of a phrase's meanings the one that fits: "cordate" of a base, "rounded" of an apex, "erect" of a stem or of a pedicel.
 const Meaning* ParagraphReader::meaningFor(const Found& f, const Concept* organ, const Concept* place) const {
+  const bool ofBranching = organ != nullptr && organ->name == "plant" && is(f.first, "simple") && isAny(f.end, {"or", "to"});  // "annual, simple or branched"
+  for (const Meaning& m : f.phrase->meanings)
+    if (ofBranching && m.category->property == "branching") return &m;
   const Meaning* whole = nullptr;
   const Meaning* loose = nullptr;  // of a place that is not named: "leaves ovate, acute, entire"
   const Meaning* other = nullptr;
@@ -141,6 +144,8 @@ bool ParagraphReader::continuesCompound(std::size_t i, const Category& category)
   if (category.property == "colour") return last_.end == i || (last_.end + 1 == i && is(i - 1, "-"));
   if (!isOneOf(category.property, {"shape", "margin"})) return false;
   const bool broadly = last_.end + 1 == i && i > 1 && isAny(i - 2, {"狀", "状"}) && isAny(i - 1, {"寬", "宽", "狹", "狭", "闊", "阔", "長", "长"});  // 匙狀寬卵形
+  // 圓齒狀鋸齒 is one kind of tooth, 刺狀細齒 says two things.
+  if (isHan(i) && category.property == "margin") return last_.end == i && isAny(i - 1, {"狀", "状"}) && !isOneOf(result_.traits.back().value, {"spinose", "ciliate"});
   if (isHan(i)) return category.property == "shape" && (broadly || (last_.end == i && isHan(i - 1) && !is(i - 1, "形")));
   return last_.end + 1 == i && is(i - 1, "-");
 }
@@ -363,7 +368,8 @@ void ParagraphReader::readTerm(std::size_t i) {
   }
   const Ahead ahead = nounAhead(f.end);
   const Concept* attributive = ahead.organ;
-  const Concept* organ = attributive != nullptr ? attributive : scope_.organ;
+  const bool namesLeaf = isOneOf(f.phrase->words.front(), {"葉", "叶"}) && f.as("organ") == nullptr;  // 葉基生
+  const Concept* organ = attributive != nullptr ? attributive : namesLeaf ? &organNamed("leaf") : scope_.organ;
   const Concept* named = placeAfter(f.end);
   const Concept* place = named != nullptr ? named : (attributive != nullptr ? nullptr : scope_.place);
   const Meaning* meaning = meaningFor(f, organ, place);
@@ -410,8 +416,8 @@ void ParagraphReader::readTerm(std::size_t i) {
   plantSeen_ = plantSeen_ || meaning->category->property == "life form";
   // 羽狀複葉,長20公分: the phrase has named the leaf itself.
   const auto isLeafWord = [](const std::string& word) { return isOneOf(word, {"葉", "叶"}); };
-  const bool namesLeaf = isLeafWord(f.phrase->words.front()) || isLeafWord(f.phrase->words.back());
-  if (namesLeaf && f.as("organ") == nullptr) enterLeaf(f.end);
+  const bool endsWithLeaf = isLeafWord(f.phrase->words.back()) && f.as("organ") == nullptr;
+  if (namesLeaf || endsWithLeaf) enterLeaf(f.end);
 }
 
 }  // namespace axil::keywords

@@ -27,7 +27,7 @@ bool leadsElsewhere(std::string_view next) {
 bool isFiller(std::string_view word) {
   return isOneOf(word, {"the", "a", "an", "of", "and", "or", "to", "in", "on", "at", "with", "by", "from", "is", "are", "be", "as", "its", "their", "it", "for", "into", "has", "have",
                         "ca", "about", "up", "per", "each", "when", "than", "but", "this", "that", "which", "both", "ca.", "c", "towards", "toward", "near", "along", "between", "x",
-                        "species", "most", "numerous", "many", "few", "several", "borne", "bearing", "having", "together", "only", "more", "less", "ones", "side", "sides", "pairs", "pair", "flowering", "fruiting", "anthesis", "maturity", "dry", "drying", "fresh",
+                        "species", "most", "always", "becoming", "age", "numerous", "many", "few", "several", "borne", "bearing", "having", "together", "only", "more", "less", "ones", "side", "sides", "pairs", "pair", "flowering", "fruiting", "anthesis", "maturity", "dry", "drying", "fresh",
                         "的", "之", "與", "与", "和", "及", "或", "至", "到", "為", "为", "呈", "有", "具", "被", "約", "约", "可", "達", "达", "於", "于", "在", "是", "枚", "片", "個", "个",
                         "朵", "對", "对", "條", "条", "生", "上", "下", "中", "常", "稀", "數", "数", "成", "形", "狀", "状", "色", "本", "種", "种", "植", "物", "時", "时", "熟", "各", "每", "一",
                         "節", "节", "處", "处", "裂", "緣", "缘", "邊", "边", "端", "部", "面", "無", "无", "不", "近", "略", "稍", "密", "疏", "長", "长", "短", "狹", "狭", "闊", "寬", "宽"});
