@@ -1,10 +1,12 @@
 #include "simeco/derive.hpp"
 
+#include "base/large_array.hpp"
 #include "simeco/engine.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace axil::simeco {
 
@@ -15,27 +17,42 @@ int threadsFor(const DeriveOptions& options) {
   return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 64u));
 }
 
-/// The origins of the string after a step, from those before it.
-std::vector<Origin> stepped(const std::vector<Origin>& before, const StepTrace& trace, std::int64_t step) {
-  std::vector<Origin> after(trace.begin.back());
-  for (std::size_t i = 0; i < trace.rule.size(); ++i)
-    for (std::size_t module = trace.begin[i]; module < trace.begin[i + 1]; ++module)
-      after[module] = trace.maker[module] == StepTrace::copied ? before[i] : Origin{trace.maker[module], static_cast<std::int32_t>(step)};
-  return after;
-}
+/// The origins of a string's modules, step after step; the room of the string before is used again.
+class Origins {
+ public:
+  explicit Origins(std::size_t modules) : now_(modules) {}
+
+  void step(const StepTrace& trace, std::int64_t step) {
+    const std::size_t modules = trace.begin.back();
+    if (modules > next_.capacity()) growRoom(next_, modules + modules / 4);
+    next_.resize(modules);
+    for (std::size_t i = 0; i < trace.rule.size(); ++i)
+      for (std::size_t module = trace.begin[i]; module < trace.begin[i + 1]; ++module)
+        next_[module] = trace.maker[module] == StepTrace::copied ? now_[i] : Origin{trace.maker[module], static_cast<std::int32_t>(step)};
+    std::swap(now_, next_);
+  }
+  [[nodiscard]] std::vector<Origin> take() { return std::move(now_); }
+
+ private:
+  std::vector<Origin> now_, next_;
+};
 
 /// As Engine::run, noting where every module comes from.
 Result<Engine::Outcome> runTraced(Engine& engine, std::optional<std::int64_t> count, Derivation& derivation) {
-  derivation.origins.assign(engine.string().size(), Origin{});
+  Origins origins(engine.string().size());
   StepTrace trace;
   while (!count || engine.stepsDone() < *count) {
     if (engine.stepsDone() >= engine.stepLimit(count)) return engine.tooManySteps(count);
     const auto outcome = engine.step(&trace);
     if (!outcome) return outcome.failure();
-    if (*outcome == Engine::Outcome::Settled) return Engine::Outcome::Settled;
-    derivation.origins = stepped(derivation.origins, trace, engine.stepsDone());
+    if (*outcome == Engine::Outcome::Settled) {
+      derivation.origins = origins.take();
+      return Engine::Outcome::Settled;
+    }
+    origins.step(trace, engine.stepsDone());
     derivation.modulesPerStep.push_back(engine.string().size());
   }
+  derivation.origins = origins.take();
   return Engine::Outcome::Changed;
 }
 

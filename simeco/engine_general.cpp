@@ -1,6 +1,7 @@
 // The general way: one module after the other, so that statements run in their order. Decomposition, cuts, sub-L-systems,
 // rings, predecessors of several modules.
 
+#include "base/large_array.hpp"
 #include "simeco/engine_pass.hpp"
 
 namespace axil::simeco {
@@ -10,9 +11,9 @@ Result<std::size_t> Engine::State::generalStep(StepTrace* trace) {
     trace->rule.clear();
     trace->begin.clear();
     trace->maker.clear();
-    trace->rule.reserve(string.size());
-    trace->begin.reserve(string.size() + 1);
-    trace->maker.reserve(expectedModules());
+    growRoom(trace->rule, string.size());
+    growRoom(trace->begin, string.size() + 1);
+    growRoom(trace->maker, expectedModules());
   }
   around.read(*program, program->main().ignored, needs, string.codes());
   spare.codes.reserve(expectedModules());
