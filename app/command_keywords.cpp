@@ -16,6 +16,7 @@ namespace {
 struct KeywordsCommand {
   std::string file;  ///< "-": stdin
   bool json = false;
+  bool vocabulary = false;
   std::string gallery;  ///< a picture of all shapes goes here; empty: none
 };
 
@@ -46,8 +47,9 @@ int gallery(std::string out) {
 
 int run(const KeywordsCommand& command) {
   if (!command.gallery.empty()) return gallery(command.gallery);
+  if (command.vocabulary) return print(keywords::vocabularyText());
   if (command.file.empty()) {
-    std::cerr << "axil: error: FILE is required, or --gallery OUT.png; `axil keywords --help` says how it is called\n";
+    std::cerr << "axil: error: FILE is required, or --gallery OUT.png, or --vocabulary; `axil keywords --help` says how it is called\n";
     return 2;
   }
   const auto bytes = textOf(command.file);
@@ -66,6 +68,7 @@ void addKeywords(CLI::App& sub, int& status) {
   auto* file = sub.add_option("FILE", command.file, "A description in English or Chinese (UTF-8, UTF-16, Big5 or GB18030); - reads standard input");
   auto* sheet = sub.add_option("--gallery", command.gallery, "Draw a contact sheet of all shapes that words can name into this PNG; no FILE is read");
   sheet->excludes(file);
+  sub.add_flag("--vocabulary", command.vocabulary, "Print every concept with its name, id and words in the three scripts, separated by tabs; no FILE is read")->excludes(file)->excludes(sheet);
   sub.add_flag("--json", command.json, "Print JSON: every trait with its words and their place, and the presets they set");
 }
 

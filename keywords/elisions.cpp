@@ -76,18 +76,20 @@ std::size_t ParagraphReader::readInThrees(std::size_t i) {
   constexpr std::array<std::string_view, 4> names{"threes", "fours", "fives", "sixes"};
   if (!is(i, "in") || i + 1 >= tokens_.size() || scope_.organ == nullptr || !scope_.organInSentence || !isOneOf(scope_.organ->name, {"leaf", "branch", "leaflet"})) return 0;
   const auto name = std::find(names.begin(), names.end(), tokens_[i + 1].text);
-  if (name == names.end()) return 0;
-  const double number = 3 + static_cast<double>(name - names.begin());
-  const bool said = last_.kept && last_.category != nullptr && last_.category->property == "arrangement" && last_.end == i;
-  addCount(i, i + 2, scope_.organ->name, {}, {{}, number, number, {}, i + 2, false}, "per node");
+  const bool digit = tokens_[i + 1].kind == TokenKind::Number && tokens_[i + 1].number >= 3 && tokens_[i + 1].number <= 20 && is(i + 2, "s");  // "in 3s"
+  if (name == names.end() && !digit) return 0;
+  const double number = digit ? tokens_[i + 1].number : 3 + static_cast<double>(name - names.begin());
+  const std::size_t end = digit ? i + 3 : i + 2;
+  const bool said = last_.kept && last_.category != nullptr && last_.category->property == "arrangement" && i < last_.end + 4;  // "whorled, mostly in 3s"
+  addCount(i, end, scope_.organ->name, {}, {{}, number, number, {}, end, false}, "per node");
   evidence_ += 1;
-  if (said) return i + 2;
-  Trait trait = traitAt(i, i + 2, scope_.organ->name, "arrangement");
+  if (said) return end;
+  Trait trait = traitAt(i, end, scope_.organ->name, "arrangement");
   trait.value = "whorled";
   trait.qualifier = qualifierBefore(i);
   keep(std::move(trait), false);
-  last_ = {i + 2, &categoryOf("arrangement"), {}, false, true, true};
-  return i + 2;
+  last_ = {end, &categoryOf("arrangement"), {}, false, true, true};
+  return end;
 }
 
 // "fascicled" in 穗狀圓錐花序, "corymbosely branched": how another inflorescence or a stem is built, and none of its own.

@@ -1,11 +1,15 @@
 #include "keywords/report.hpp"
 
 #include "base/text.hpp"
+#include "keywords/vocabulary.hpp"
+#include "keywords/words.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace axil::keywords {
 
@@ -27,11 +31,27 @@ void put(Json& json, const char* key, const std::string& text) {
   if (!text.empty()) json[key] = text;
 }
 
+// The Plant Ontology's or PATO's name of a concept; empty where there is none ("ovate-lanceolate" is two).
+std::string idOf(std::string_view property, const std::string& name) {
+  using Ids = std::map<std::pair<std::string, std::string>, std::string, std::less<>>;
+  static const Ids ids = [] {
+    Ids all;
+    for (const Category& category : vocabulary())
+      for (const Concept& entry : category.concepts)
+        if (const auto id = entry.columns.find("id"); id != entry.columns.end()) all.emplace(std::pair(category.property, entry.name), id->second);
+    return all;
+  }();
+  const auto found = name.empty() ? ids.end() : ids.find(std::pair(std::string(property), name));
+  return found == ids.end() ? std::string() : found->second;
+}
+
 Json traitJson(const Trait& trait) {
   Json json;
   json["organ"] = trait.organ;
   json["property"] = trait.property;
+  put(json, "organ_id", idOf("organ", trait.organ));
   put(json, "value", trait.value);
+  put(json, "id", idOf(trait.property, trait.value));
   put(json, "minimum", trait.minimum);
   put(json, "low", trait.low);
   put(json, "high", trait.high);
@@ -225,6 +245,24 @@ std::string readingJson(const Reading& reading, const Presets& presets) {
   out += ",\n";
   putList(out, "contradictions", reading.contradictions, [&](const Contradiction& c) { return contradictionJson(c, reading.traits); });
   return out + "\n}\n";
+}
+
+std::string vocabularyText() {
+  const auto words = [](const std::vector<Term>& terms) {
+    std::string list;
+    for (const Term& term : terms) list += (list.empty() ? "" : ", ") + term.words;
+    return list.empty() ? std::string("-") : list;
+  };
+  std::string text = "property\tabout\tname\tid\tenglish\ttraditional\tsimplified\tdefinition\n";
+  for (const Category& category : vocabulary()) {
+    if (isOneOf(category.property, {"stop", "foreign"})) continue;  // words that say what a text is not
+    for (const Concept& entry : category.concepts) {
+      const auto id = entry.columns.find("id");
+      text += category.property + "\t" + (category.defaultOrgan.empty() ? "-" : category.defaultOrgan) + "\t" + entry.name + "\t" + (id == entry.columns.end() ? "-" : id->second) + "\t" +
+              words(entry.english) + "\t" + words(entry.traditional) + "\t" + words(entry.simplified) + "\t" + entry.definition + "\n";
+    }
+  }
+  return text;
 }
 
 std::string traitsText(const Traits& traits, const Presets& presets) {

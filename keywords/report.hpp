@@ -9,7 +9,8 @@
 namespace axil::keywords {
 
 /// `{"traits": [...], "presets": {...}}`, indented, with a newline at its end. A trait has organ, property, value or low, high and
-/// unit (and minimum, maximum, qualifier where the text gives them), text, start, end (characters). Presets have only what the text
+/// unit (and minimum, maximum, qualifier where the text gives them; organ_id and id, the names that the Plant Ontology or PATO give to
+/// organ and value, where they do), text, start, end (characters). Presets have only what the text
 /// sets, and `evidence`, the words that set each.
 [[nodiscard]] std::string traitsJson(const Traits& traits, const Presets& presets);
 /// The same with `"unknown": [...]` (organ, text, start, end) and `"contradictions": [...]` (what, and the places of both traits).
@@ -18,5 +19,8 @@ namespace axil::keywords {
 [[nodiscard]] std::string traitsText(const Traits& traits, const Presets& presets);
 /// The same, then what was seen but not understood, and what contradicts itself.
 [[nodiscard]] std::string readingText(const Reading& reading, const Presets& presets);
+/// The whole vocabulary, one concept a line, columns separated by tabs: which property it is a value of and what it is about, its
+/// name as traits give it, its id, the words that say it in English, 繁體 and 简体, its definition. A head line comes first.
+[[nodiscard]] std::string vocabularyText();
 
 }  // namespace axil::keywords

@@ -10,9 +10,12 @@ constexpr double tallestPlant_m = 150;  // what is said to be higher is where it
 }
 
 bool ParagraphReader::isAltitude(std::size_t i) const {
+  bool comma = false;
   for (std::size_t back = 1; back <= 7 && back <= i; ++back) {
     if (back == 1 && is(i - back, "深")) return true;
-    if (isAny(i - back, {"elevation", "elevations", "altitude", "altitudes", "alt", "elev", "拔", "depth", "depths", "apart", "distance"})) return true;
+    comma = comma || is(i - back, ",");
+    if (isAny(i - back, {"elevation", "elevations", "altitude", "altitudes", "alt", "elev", "拔", "depth", "depths"})) return true;
+    if (isAny(i - back, {"apart", "distance"}) && !comma) return true;
     if (isAny(i - back, {"距"}) && i > back && isAny(i - back - 1, {"間", "间", "株", "行"})) return true;
     if (isAny(i - back, {";", "。", "；"}) || nounAt(i - back) != nullptr) return false;
   }
@@ -88,7 +91,8 @@ const Concept* ParagraphReader::measuredOrgan(const Size& size, const Concept* s
   if (subject == nullptr) return nullptr;
   if (subject->name == "leaflet" && isAny(size.first, {"連", "连"})) return &organNamed("leaf");
   const bool beside = !isRightBehindOrgan(size.first);
-  if (subject->name == "branch" && size.dimension == "height" && beside) return &organNamed(namedAt_.contains(&organNamed("stem")) ? "stem" : "plant");
+  const bool below = isOneOf(subject->name, {"rhizome", "root", "tuber", "bulb", "corm", "stolon"});  // 具匍匐根莖，高40-80公分
+  if ((subject->name == "branch" || below) && size.dimension == "height" && beside) return &organNamed(namedAt_.contains(&organNamed("stem")) ? "stem" : "plant");
   if (isOneOf(subject->name, {"trunk", "bark"}) && size.dimension == "height" && plantInSentence_ && beside) return &organNamed("plant");
   const bool afterComma = beside && !scope_.subjectInSegment;
   // 側脈5對，長8公分，寬4公分: the blade is measured; 果具軟刺，徑1公分: the fruit.
