@@ -56,13 +56,27 @@ float costOf(const StemnessMap& stems, const StemCell& cell) {
   return kOnStem + (1 - kOnStem) * (0.6F * (1 - stems.likeness(cell)) + 0.4F * (1 - clear));
 }
 
-cv::segmentation::IntelligentScissorsMB scissorsOf(const StemnessMap& stems) {
+/// Cells of stems that have been followed already: a little more than the stem, as its edges look like stems too.
+cv::Mat takenCells(const StemnessMap& stems, std::span<const TakenSegment> taken) {
+  cv::Mat cells(stems.rows, stems.columns, CV_8UC1, cv::Scalar(0));
+  for (const auto& [from, to] : taken) {
+    const glm::ivec2 a = stems.cellOf(from.px), b = stems.cellOf(to.px);
+    const double width_px = 0.5 * (stems.at(a.x, a.y).width_px + stems.at(b.x, b.y).width_px);
+    cv::line(cells, {a.x, a.y}, {b.x, b.y}, cv::Scalar(1), std::max(3, static_cast<int>(width_px / stems.cell_px) + 2));
+  }
+  return cells;
+}
+
+cv::segmentation::IntelligentScissorsMB scissorsOf(const StemnessMap& stems, std::span<const TakenSegment> taken) {
+  constexpr float kTaken = 0.6F;  // share of what nothing costs
+  const cv::Mat isTaken = takenCells(stems, taken);
   cv::Mat edge(stems.rows, stems.columns, CV_8UC1, cv::Scalar(0)), across(stems.rows, stems.columns, CV_32FC2), cost(stems.rows, stems.columns, CV_32FC1);
   for (int row = 0; row < stems.rows; ++row)
     for (int column = 0; column < stems.columns; ++column) {
       const StemCell& cell = stems.at(column, row);
       across.at<cv::Vec2f>(row, column) = {-cell.along.y, cell.along.x};
-      cost.at<float>(row, column) = costOf(stems, cell);
+      const float own = costOf(stems, cell);
+      cost.at<float>(row, column) = isTaken.at<std::uint8_t>(row, column) != 0 ? std::max(own, kTaken) : own;
     }
   cv::segmentation::IntelligentScissorsMB scissors;
   scissors.setWeights(0, 0.15F, 0.85F);
@@ -246,11 +260,11 @@ Result<LiveWire> prepareLiveWire(std::shared_ptr<const Photo> photo, const Watch
   }
 }
 
-Result<WireStart> startWire(const LiveWire& wire, PhotoPoint from) {
+Result<WireStart> startWire(const LiveWire& wire, PhotoPoint from, std::span<const TakenSegment> taken) {
   const PreparedWire& prepared = wire.prepared();
   if (!isInside(*prepared.photo, from.px)) return fail(ErrorCode::BadInput, "a way along a stem must begin inside the photo");
   try {
-    const auto map = std::make_shared<detail::WireMap>(detail::WireMap{wire, scissorsOf(prepared.stems), meantCell(prepared.stems, from.px, WireOptions{}.reach_px)});
+    const auto map = std::make_shared<detail::WireMap>(detail::WireMap{wire, scissorsOf(prepared.stems, taken), meantCell(prepared.stems, from.px, WireOptions{}.reach_px)});
     map->ways.buildMap({map->cell.x, map->cell.y});
     return WireStart(from, map);
   } catch (const cv::Exception& e) {

@@ -17,6 +17,8 @@
 #include "skeleton3d/photo.hpp"
 
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace axil::skeleton3d {
@@ -74,8 +76,12 @@ struct WireOptions {
 /// Fails with BadInput for a photo of less than 8 px or without pixels, with Cancelled.
 [[nodiscard]] Result<LiveWire> prepareLiveWire(std::shared_ptr<const Photo> photo, const Watch& watch = {});
 
-/// Fails with BadInput where `from` is outside the photo.
-[[nodiscard]] Result<WireStart> startWire(const LiveWire& wire, PhotoPoint from);
+/// A piece of a stem that has been followed already, from one click to the next.
+using TakenSegment = std::pair<PhotoPoint, PhotoPoint>;
+
+/// Along `taken` a way is dearer than along a stem that nobody has followed yet, and cheaper than where there is no stem: a branch beside
+/// its parent is not the parent again. Fails with BadInput where `from` is outside the photo.
+[[nodiscard]] Result<WireStart> startWire(const LiveWire& wire, PhotoPoint from, std::span<const TakenSegment> taken = {});
 
 /// `to` is moved into the photo if it is outside.
 [[nodiscard]] WirePath wireTo(const WireStart& start, PhotoPoint to, const WireOptions& options = {});

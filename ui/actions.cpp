@@ -122,10 +122,7 @@ Taken pick(const Panel& panel) {
 
 /// The clicks that the photos propose for the selected stem, in every photo that shows it.
 Taken takeProposals(const Panel& panel) {
-  Step step;
-  for (const ProposedStem& proposed : panel.proposals.all())
-    for (document::Command& command : stepOf(proposed)) step.push_back(std::move(command));
-  return step;
+  return stepOf(panel.project, panel.proposals.all());
 }
 
 /// One step back from whatever a person is in the middle of.

@@ -107,6 +107,21 @@ double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
   return glm::distance(p, a + share * along);
 }
 
+std::vector<skeleton3d::TakenSegment> segmentsIn(const Project& project, const std::string& view) {
+  std::vector<skeleton3d::TakenSegment> segments;
+  for (const document::ProjectStem& entry : project.stems)
+    for (std::size_t i = 1; i < entry.stem.nodes.size(); ++i) {
+      const PhotoPoint *a = document::clickOf(project, entry.stem.nodes[i - 1], view), *b = document::clickOf(project, entry.stem.nodes[i], view);
+      if (a != nullptr && b != nullptr) segments.emplace_back(*a, *b);
+    }
+  return segments;
+}
+
+double bowOf(double length_px, double photo_px) {
+  constexpr double kOfLength = 0.04, kOfPhoto = 0.016;
+  return std::min(kOfLength * length_px, kOfPhoto * photo_px);
+}
+
 bool Selection::has(NodeId id) const { return node == id || std::find(others.begin(), others.end(), id) != others.end(); }
 
 std::vector<NodeId> Selection::all() const {
@@ -148,7 +163,12 @@ std::optional<NodeId> nodeAt(const Project& project, const PhotoClick& click) {
   return nearest;
 }
 
-std::optional<PlaceOnStem> placeOnStem(const Project& project, const PhotoClick& click) {
+namespace {
+
+enum class Bow { None, Allowed };
+
+/// The nearest segment within reach, which a bow of the stem lengthens.
+std::optional<PlaceOnStem> placeWithin(const Project& project, const PhotoClick& click, Bow bow) {
   std::optional<PlaceOnStem> nearest;
   for (const auto& entry : project.stems)
     for (std::size_t i = 1; i < entry.stem.nodes.size(); ++i) {
@@ -156,11 +176,16 @@ std::optional<PlaceOnStem> placeOnStem(const Project& project, const PhotoClick&
       const PhotoPoint* b = document::clickOf(project, entry.stem.nodes[i], click.view);
       if (a == nullptr || b == nullptr) continue;
       const double distance = distanceToSegment(click.at.px, a->px, b->px);
-      if (distance > click.reach_px || (nearest && distance >= nearest->distance_px)) continue;
+      const double bow_px = bow == Bow::None ? 0 : bowOf(glm::distance(a->px, b->px), click.photo_px);
+      if (distance > click.reach_px + bow_px || (nearest && distance >= nearest->distance_px)) continue;
       nearest = PlaceOnStem{entry.stem.id, entry.stem.nodes[i - 1], entry.stem.nodes[i], distance};
     }
   return nearest;
 }
+
+}  // namespace
+
+std::optional<PlaceOnStem> placeOnStem(const Project& project, const PhotoClick& click) { return placeWithin(project, click, Bow::None); }
 
 Step insertAt(const Project& project, const PlaceOnStem& place, const PhotoClick& click) {
   const NodeId node = document::nextNodeId(project);
@@ -169,7 +194,7 @@ Step insertAt(const Project& project, const PlaceOnStem& place, const PhotoClick
 
 std::optional<PlaceOnStem> lineAt(const Project& project, PhotoClick click) {
   click.reach_px = std::max(click.reach_px, click.stem_px) / 2;
-  return placeOnStem(project, click);
+  return placeWithin(project, click, click.stem_px > 0 ? Bow::Allowed : Bow::None);
 }
 
 ClickMeaning meaningOf(const Project& project, const Selection& selection, const PhotoClick& click) {

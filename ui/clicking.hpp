@@ -14,6 +14,7 @@
 /// What comes first here wins.
 
 #include "document/command.hpp"
+#include "skeleton3d/live_wire.hpp"
 
 #include <optional>
 #include <span>
@@ -53,6 +54,7 @@ struct PhotoClick {
   PhotoPoint at;
   double reach_px = 8;  ///< px of the photo
   double stem_px = 0;   ///< width of the stem that is seen there; 0: none is
+  double photo_px = 0;  ///< the photo's longer side
   Picking picking = Picking::PickNodes;
 };
 
@@ -77,11 +79,17 @@ struct PlaceOnStem {
 /// The node with the nearest click in the view, within reach.
 [[nodiscard]] std::optional<document::NodeId> nodeAt(const document::Project& project, const PhotoClick& click);
 
-/// The stem whose line a click is on: nearer than half the reach of a node, or than half the width of the stem that is seen there, since a
-/// followed stem's line is not its centre everywhere.
+/// How far a followed stem may bow away from the straight line between two of its nodes: few nodes count more than the last pixel, but a
+/// long stem is no straight one.
+[[nodiscard]] double bowOf(double length_px, double photo_px);
+
+/// The stem whose line a click is on: nearer than half the reach of a node, or, where a stem is seen, than half its width and the bow that
+/// it may have there.
 [[nodiscard]] std::optional<PlaceOnStem> lineAt(const document::Project& project, PhotoClick click);
 
 /// The stem to which a node's colour and its neighbours belong: the one it is on beyond its beginning, else the first that begins with it.
+/// The segments of all stems whose ends are clicked in the view.
+[[nodiscard]] std::vector<skeleton3d::TakenSegment> segmentsIn(const document::Project& project, const std::string& view);
 [[nodiscard]] std::optional<document::StemId> stemOf(const document::Project& project, document::NodeId node);
 
 }  // namespace axil::ui

@@ -38,6 +38,7 @@ PhotoClick clickAt(const Pane& pane, PhotoPoint at) {
 PhotoClick clickOn(const Pane& pane, PhotoPoint at, const std::optional<skeleton3d::RidgeReading>& stem) {
   PhotoClick click = clickAt(pane, at);
   if (stem) click.stem_px = stem->width_px;
+  if (pane.photo != nullptr) click.photo_px = std::max(pane.photo->size_px.x, pane.photo->size_px.y);
   return click;
 }
 
@@ -116,9 +117,10 @@ std::optional<ProposedStem> wholeStem(const Pane& pane, const ClickMeaning& mean
   if (known != nullptr && glm::distance(known->clicks.back().second.px, at.px) < pane.reach()) return *known;
   const skeleton3d::LiveWire* photo = pane.panel.wires.ready(pane.photo->tiles->sharedPhoto());
   auto question = photo == nullptr ? std::nullopt : stemQuestion(pane.panel.project, *placed, *meaning.node, pane.name(), *photo);
-  if (!question || question->nodes.size() < 3) return std::nullopt;
+  if (!question) return std::nullopt;
   question->options.endInOther = at;
-  return proposedStem(*question);
+  const auto stem = proposedStem(*question);
+  return stem && (stem->clicks.size() > 1 || !stem->bends.empty()) ? stem : std::nullopt;
 }
 
 /// A node put into a stem has its place in the other photos too, on the centre line where there is one.
@@ -255,7 +257,7 @@ Taken clicked(const Pane& pane, PhotoPoint at) {
   if (const auto wire = wireTo(pane, meaning, at)) {
     meaning = meaningAlong(pane.panel.project, state.selection, onlyPlaced(pane, wire->nodes.back().at), placesOf(*wire));
   } else if (places(meaning)) {
-    if (const auto whole = wholeStem(pane, meaning, centre)) return Taken{stepOf(*whole)};
+    if (const auto whole = wholeStem(pane, meaning, centre)) return Taken{stepOf(pane.panel.project, {&*whole, 1})};
     if (ridge) {
       ClickMeaning snapped = meaningOf(pane.panel.project, state.selection, onlyPlaced(pane, centre));
       if (places(snapped)) meaning = std::move(snapped);  // not onto the node that it goes on from

@@ -15,6 +15,10 @@ using document::Project;
 constexpr double kLeastConfidence = 0.25;  // where photos agree
 constexpr double kSureAlone = 0.4;
 constexpr double kLineStep_px = 4;
+/// How far a new node is from every other one of its stem.
+constexpr double kApartAlong_px = 24;
+/// How far the line through the nodes may be from the stem, of the photo's longer side.
+constexpr double kTolerance = 0.0025;
 /// A way that runs this close to clicked stems for more than this share of it is one of them.
 constexpr double kTaken_px = 5, kTakenShare = 0.5;
 /// Tips of two photos' proposals are one place when they are no further apart than this share of the plant's reach.
@@ -69,15 +73,35 @@ bool isTaken(const std::vector<PhotoPoint>& line, const std::vector<std::pair<Ph
   return static_cast<double>(near) > kTakenShare * static_cast<double>(line.size());
 }
 
-/// The segments of all stems in the view.
-std::vector<std::pair<PhotoPoint, PhotoPoint>> segmentsIn(const Project& project, const std::string& view) {
-  std::vector<std::pair<PhotoPoint, PhotoPoint>> segments;
-  for (const document::ProjectStem& entry : project.stems)
-    for (std::size_t i = 1; i < entry.stem.nodes.size(); ++i) {
-      const PhotoPoint *a = document::clickOf(project, entry.stem.nodes[i - 1], view), *b = document::clickOf(project, entry.stem.nodes[i], view);
-      if (a != nullptr && b != nullptr) segments.emplace_back(*a, *b);
-    }
-  return segments;
+/// The nodes of the way that lie between clicked ones, well apart from them: where it bends in the other photo alone.
+std::vector<ProposedBend> bendsOf(const skeleton3d::StemBetween& between, const StemQuestion& question) {
+  std::vector<ProposedBend> bends;
+  std::size_t above = 1, place = placeOf(between.line, 0, question.nodes[1].second);
+  for (const skeleton3d::StemPlace& node : between.nodes) {
+    const std::size_t at = placeOf(between.line, 0, node.inFirst);
+    while (above + 1 < question.nodes.size() && place <= at) ++above, place = placeOf(between.line, place, question.nodes[above].second);
+    const auto isNear = [&](const auto& clicked) { return glm::distance(clicked.second.px, node.inFirst.px) < kApartAlong_px; };
+    if (place > at && node.confidence >= kLeastConfidence && std::none_of(question.nodes.begin(), question.nodes.end(), isNear))
+      bends.push_back({question.nodes[above].first, node.inFirst, node.inOther});
+  }
+  return bends;
+}
+
+void addClicks(const ProposedStem& stem, document::Step& step) {
+  for (const auto& [node, at] : stem.clicks) step.emplace_back(document::PlaceClick{node, stem.view, at, stem.within_px});
+  const auto& [tip, at] = stem.clicks.back();
+  step.back() = document::AddClick{tip, stem.view, at};
+}
+
+void addBends(const Project& project, const ProposedStem& bent, document::Step& step) {
+  const document::StemId stem = *stemOf(project, bent.clicks.back().first);
+  NodeId added = document::nextNodeId(project);
+  for (const ProposedBend& bend : bent.bends) {
+    step.emplace_back(document::AddNode{added, bent.first, bend.inFirst});
+    step.emplace_back(document::InsertNode{stem, added, bend.above});
+    step.emplace_back(document::PlaceClick{added, bent.view, bend.inOther, bent.within_px});
+    ++added.value;
+  }
 }
 
 }  // namespace
@@ -128,6 +152,8 @@ std::optional<StemQuestion> stemQuestion(const Project& project, const Placed& p
   if (first == nullptr) return std::nullopt;
   StemQuestion question{*first, *other, {}, otherPhoto, placed.reach(), {}, segmentsIn(project, view), placed.within_px(first->name, view)};
   for (const NodeId node : nodes) question.nodes.emplace_back(node, *document::clickOf(project, node, first->name));
+  const double side_px = std::max(other->size_px.x, other->size_px.y);
+  question.options.tolerance_px = std::max(kTolerance * side_px, bowOf(glm::distance(question.nodes.front().second.px, question.nodes.back().second.px), side_px));
   question.options.startInOther = *document::clickOf(project, nodes.front(), view);
   if (const skeleton3d::Node* base = placed.node(nodes.front())) question.options.base = base->position;
   return question;
@@ -136,7 +162,7 @@ std::optional<StemQuestion> stemQuestion(const Project& project, const Placed& p
 std::optional<ProposedStem> proposedStem(const StemQuestion& question) {
   const auto between = skeleton3d::tracedInOtherView(question.first, pathThrough(question.nodes), question.other, question.otherPhoto, question.reach, question.options);
   if (!between || between->line.empty() || between->confidence < kLeastConfidence) return std::nullopt;
-  ProposedStem proposed{question.other.name, {}, {}, between->line.back().at, between->confidence, question.within_px};
+  ProposedStem proposed{question.other.name, {}, {}, between->line.back().at, between->confidence, question.within_px, question.first.name, bendsOf(*between, question)};
   std::size_t place = 0;
   for (std::size_t i = 1; i < question.nodes.size(); ++i) {
     place = placeOf(between->line, place, question.nodes[i].second);
@@ -161,11 +187,11 @@ std::vector<ProposedStem> agreeing(std::span<const StemQuestion> questions) {
   return stems;
 }
 
-document::Step stepOf(const ProposedStem& proposed) {
+document::Step stepOf(const Project& project, std::span<const ProposedStem> proposed) {
   document::Step step;
-  for (const auto& [node, at] : proposed.clicks) step.emplace_back(document::PlaceClick{node, proposed.view, at, proposed.within_px});
-  const auto& [tip, at] = proposed.clicks.back();
-  step.back() = document::AddClick{tip, proposed.view, at};
+  for (const ProposedStem& stem : proposed) addClicks(stem, step);
+  const auto bent = std::find_if(proposed.begin(), proposed.end(), [](const ProposedStem& stem) { return !stem.bends.empty(); });
+  if (bent != proposed.end()) addBends(project, *bent, step);
   return step;
 }
 

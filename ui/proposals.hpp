@@ -19,6 +19,12 @@
 namespace axil::ui {
 
 /// The clicks that the nodes of a stem would get in a view.
+/// A place where the stem bends in the other photo and is straight in the first: a new node, there in both.
+struct ProposedBend {
+  document::NodeId above;  ///< the stem's next node
+  PhotoPoint inFirst, inOther;
+};
+
 struct ProposedStem {
   std::string view;
   std::vector<std::pair<document::NodeId, PhotoPoint>> clicks;  ///< the last one is the tip's
@@ -26,6 +32,8 @@ struct ProposedStem {
   PlantPoint tip;
   double confidence = 0;                                        ///< 0 to 1
   double within_px = 0;                                         ///< how far off the clicks before the tip's may be
+  std::string first;                                            ///< the photo that shows all these nodes already
+  std::vector<ProposedBend> bends = {};                         ///< from the base on
 };
 
 /// All that a proposal follows from: one stem's last nodes, clicked in `first` and not in `other`.
@@ -36,7 +44,7 @@ struct StemQuestion {
   skeleton3d::LiveWire otherPhoto;
   skeleton3d::Reach reach;
   skeleton3d::BetweenOptions options;
-  std::vector<std::pair<PhotoPoint, PhotoPoint>> taken;        ///< segments of other stems in `other`: what is there is not proposed again
+  std::vector<skeleton3d::TakenSegment> taken;                 ///< segments of other stems in `other`: what is there is not proposed again
   double within_px = 0;                                        ///< see Placed
 };
 
@@ -62,7 +70,8 @@ struct Placed {
 /// For several photos at once: of proposals that put the tip at different places the surest stays; one that no other photo agrees with
 /// must be surer.
 [[nodiscard]] std::vector<ProposedStem> agreeing(std::span<const StemQuestion> questions);
-[[nodiscard]] document::Step stepOf(const ProposedStem& proposed);
+/// The clicks of them all, and the new nodes of the first one that has any.
+[[nodiscard]] document::Step stepOf(const document::Project& project, std::span<const ProposedStem> proposed);
 
 /// The likeliest places in `view` for a point clicked in `first`, best first; none without cameras.
 [[nodiscard]] std::vector<skeleton3d::ProposedPlace> placesFor(const Placed& placed, const std::string& first, PhotoPoint click, const std::string& view,

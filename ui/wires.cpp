@@ -1,6 +1,7 @@
 #include "ui/wires.hpp"
 
 #include "document/lookup.hpp"
+#include "ui/clicking.hpp"
 
 #include <algorithm>
 
@@ -12,8 +13,6 @@ constexpr std::size_t kMostReady = 3;
 constexpr double kLeastConfidence = 0.4;
 /// How far the line through the nodes may be from the stem, of the photo's longer side: few nodes count more than the last pixel.
 constexpr double kTolerance = 0.0025;
-/// ... and of the straight way: a step from node to node is no bent stem.
-constexpr double kToleranceOfWay = 0.04;
 
 /// Photos made ready, the last used first.
 class Prepare {
@@ -24,7 +23,7 @@ class Prepare {
     if (wire == nullptr) return answer;
     answer.ready = *wire;
     if (!question.from) return answer;
-    if (auto start = skeleton3d::startWire(*wire, *question.from)) answer.start = std::move(*start);
+    if (auto start = skeleton3d::startWire(*wire, *question.from, question.taken)) answer.start = std::move(*start);
     return answer;
   }
 
@@ -79,16 +78,17 @@ void Wires::update(const document::OpenProject& open, const UiState& state, cons
     const auto photo = at ? photos.photoOf(open, open.project.views[*at]) : nullptr;
     if (photo && node) {
       const PhotoPoint from = *document::clickOf(open.project, *node, state.hover->first);
-      if (!answer_ || answer_->question.photo != photo || answer_->question.from != from) return ask({photo, from});
+      if (!answer_ || answer_->question.photo != photo || answer_->question.from != from) return ask({photo, from, segmentsIn(open.project, state.hover->first)});
     }
   }
   for (const document::ProjectView& view : open.project.views)
-    if (const auto photo = photos.photoOf(open, view); photo && place(photo) == ready_.end() && ready_.size() < kMostReady) return ask({photo, {}});
+    if (const auto photo = photos.photoOf(open, view); photo && place(photo) == ready_.end() && ready_.size() < kMostReady) return ask({photo, {}, {}});
 }
 
 std::optional<skeleton3d::WirePath> Wires::way(const std::shared_ptr<const skeleton3d::Photo>& photo, PhotoPoint from, PhotoPoint to) const {
   if (!answer_ || answer_->question.photo != photo || answer_->question.from != from) return std::nullopt;
-  const double tolerance_px = std::max({1.5, kTolerance * std::max(photo->width, photo->height), kToleranceOfWay * glm::distance(from.px, to.px)});
+  const double side_px = std::max(photo->width, photo->height);
+  const double tolerance_px = std::max({1.5, kTolerance * side_px, bowOf(glm::distance(from.px, to.px), side_px)});
   skeleton3d::WirePath path = skeleton3d::wireTo(*answer_->start, to, {.tolerance_px = tolerance_px});
   if (path.confidence < kLeastConfidence || path.nodes.size() < 2) return std::nullopt;
   return path;

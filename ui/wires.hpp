@@ -17,6 +17,7 @@ namespace axil::ui {
 struct WireQuestion {
   std::shared_ptr<const skeleton3d::Photo> photo;
   std::optional<PhotoPoint> from;  ///< nothing: the photo is only made ready
+  std::vector<skeleton3d::TakenSegment> taken;  ///< of the stems that are clicked there
 };
 
 struct WireAnswer {

@@ -69,6 +69,23 @@ TEST(LiveWire, ABentStemComesOutWithFewNodesWithinTheToleranceOfItsCentreLine) {
   }
 }
 
+TEST(LiveWire, ABranchBesideItsParentIsNotTheParentAgain) {
+  // A wide dark parent and a thin branch that leaves it slowly: the parent is the clearer stem for most of the way.
+  const std::vector<glm::dvec2> parent{{200, 580}, {200, 20}}, branch{{200, 560}, {222, 470}, {232, 330}, {240, 190}};
+  const auto wire = prepareLiveWire(shared(drawnPhoto({400, 600}, {205, 203, 198}, {{parent, 14, {40, 70, 30}}, {branch, 4, {140, 160, 120}}}, 3, 11)));
+  ASSERT_TRUE(wire);
+  const PhotoPoint from{branch.front()}, tip{branch.back()};
+  const std::vector<TakenSegment> taken{{{parent.front()}, {parent.back()}}};
+  const auto along = startWire(*wire, from), anew = startWire(*wire, from, taken);
+  ASSERT_TRUE(along && anew);
+  const auto inMiddle = [&](const WirePath& path) {
+    const auto node = std::min_element(path.line.begin(), path.line.end(), [](const WireNode& a, const WireNode& b) { return std::abs(a.at.px.y - 400) < std::abs(b.at.px.y - 400); });
+    return distanceTo(branch, node->at.px);
+  };
+  EXPECT_GT(inMiddle(wireTo(*along, tip)), 10) << "what the clearer stem costs less";
+  EXPECT_LT(inMiddle(wireTo(*anew, tip)), 2);
+}
+
 TEST(LiveWire, AStraightStemIsTwoNodesWhateverCrossesIt) {
   const std::vector<glm::dvec2> stem{{80, 380}, {310, 30}};
   const DrawnStem other{{{40, 100}, {380, 300}}, 8, {90, 80, 60}};

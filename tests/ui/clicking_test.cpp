@@ -65,6 +65,17 @@ TEST(Clicking, AStemIsClickedAnewInAnotherPhotoFromAnyOfItsNodes) {
   EXPECT_EQ(meaningOf(project, {NodeId(1)}, at("front", 50, 10)).kind, ClickKind::Branch) << "here all of it is clicked";
 }
 
+TEST(Clicking, AStemThatBowsAwayFromItsStraightLineIsHitWhereItIsSeen) {
+  const Project project = projectOf(std::string(kViews) + "add_node 1 front 100 1400 ; add_stem 1 1\nadd_node 2 front 100 600 ; append_node 1 2\nadd_click 2 right 100 600\n");
+  PhotoClick beside = at("front", 116, 1000);
+  beside.photo_px = 1600;
+  EXPECT_EQ(meaningOf(project, {NodeId(2)}, beside).kind, ClickKind::Extend) << "no stem is seen there";
+  beside.stem_px = 5;
+  EXPECT_EQ(printed(meaningOf(project, {NodeId(2)}, beside)), "add_node 3 front 116 1000 ; insert_node 1 3 2");
+  beside.at.px.x = 160;
+  EXPECT_EQ(meaningOf(project, {NodeId(2)}, beside).kind, ClickKind::Extend) << "no stem of this line";
+}
+
 TEST(Clicking, OnAStemsLineItGetsANodeToBranchFrom) {
   const Project project = projectOf(std::string(kViews) + "add_node 1 front 0 0 ; add_stem 1 1\nadd_node 2 front 0 50 ; append_node 1 2\nadd_node 3 front 60 60 ; start_branch 2 2 ; append_node 2 3\n" +
                                      "add_node 4 front 0 99 ; append_node 1 4\nadd_click 3 right 60 60\n");
