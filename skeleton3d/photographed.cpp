@@ -2,6 +2,7 @@
 
 #include "skeleton3d/camera.hpp"
 #include "skeleton3d/placed_clicks.hpp"
+#include "skeleton3d/ridge_scatter.hpp"
 #include "skeleton3d/solve_all.hpp"
 #include "skeleton3d/stem_evidence.hpp"
 
@@ -139,7 +140,7 @@ Course courseOf(const Task& task, std::vector<ClickedNode> kept, const Photograp
 Result<void> round(const Task& task, const ExpectedRidges& expected, double cameras_px, Photographed& found) {
   const Course course = courseOf(task, withoutSuspects(task.nodes, found.cameras.suspects), found, expected);
   const std::span<const ClickedNode> clicked = std::span(course.nodes).first(course.clicked);
-  found.snapping.readings = readAllRidges(task.photos, course.nodes, course.stems, snapOptionsFor(found.cameras), course.expected);
+  found.snapping.readings = detail::withWidthScatter(readAllRidges(task.photos, course.nodes, course.stems, snapOptionsFor(found.cameras), course.expected), course.expected);
   if (auto done = place(found, clicked, cameras_px); !done) return done;
   const auto between = placeSnapped(found.cameras.views, course.between(), found.snapping.readings, found.cameras.uncertainty.click_px, cameras_px);
   if (!between) return between.failure();
@@ -151,7 +152,7 @@ Result<void> round(const Task& task, const ExpectedRidges& expected, double came
 Result<void> withPlacedClicks(const Task& task, std::span<const ClickedNode> nodes, const ExpectedRidges& expected, Photographed& found) {
   if (std::all_of(nodes.begin(), nodes.end(), [](const ClickedNode& node) { return node.placed.empty(); })) return {};
   const std::vector<ClickedNode> all = withoutSuspects(nodes, found.cameras.suspects);
-  found.snapping.readings = readAllRidges(task.photos, all, task.options.stems, snapOptionsFor(found.cameras), expected);
+  found.snapping.readings = detail::withWidthScatter(readAllRidges(task.photos, all, task.options.stems, snapOptionsFor(found.cameras), expected), expected);
   return place(found, all, 0);
 }
 

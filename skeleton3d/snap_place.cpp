@@ -2,6 +2,7 @@
 
 #include "skeleton3d/camera.hpp"
 #include "skeleton3d/placed_clicks.hpp"
+#include "skeleton3d/ridge_scatter.hpp"
 #include "skeleton3d/solve_all.hpp"
 #include "skeleton3d/statistics.hpp"
 #include "skeleton3d/width.hpp"
@@ -306,7 +307,8 @@ Result<Snapping> snapNodes(std::span<const View> views, const Photos& photos, st
   snapping.readings = readAllRidges(photos, nodes, stems, options);
   auto placed = placeSnapped(views, nodes, snapping.readings, options.click_px);
   if (!placed) return placed.failure();
-  snapping.readings = readAllRidges(photos, nodes, stems, options, expectedRidges(views, *placed, stems, snapping.readings));
+  const ExpectedRidges expected = expectedRidges(views, *placed, stems, snapping.readings);
+  snapping.readings = detail::withWidthScatter(readAllRidges(photos, nodes, stems, options, expected), expected);
   placed = placeSnapped(views, nodes, snapping.readings, options.click_px);
   if (!placed) return placed.failure();
   snapping.readings = withTrueScatter(std::move(snapping.readings), views, *placed);
