@@ -71,6 +71,23 @@ glm::vec4 slopeAt(const RidgeProfile& profile, double at) {
   return profile.slope[i] * (1 - f) + profile.slope[i + 1] * f;
 }
 
+/// Of two edges with these slopes.
+double strengthOf(const RidgeProfile& profile, const glm::vec4& atLeft, const glm::vec4& atRight) {
+  const glm::vec4 out = -atRight;  // inside minus outside, both
+  const glm::vec3 a(atLeft), b(out);
+  const double la = glm::length(a), lb = glm::length(b);
+  const double alike = la * lb > 0 ? glm::dot(a, b) / (la * lb) : 0;
+  const double colour = std::min(la, lb) * (2 + alike) / 3;
+  if (!profile.hasLikelihood) return colour;
+  const double stem = std::min(atLeft.w, out.w);
+  return stem <= 0 ? 0 : std::min(colour, 60.0) * 0.5 + kLikelihoodWeight * stem;
+}
+
+double edgeOf(const RidgeProfile& profile, const glm::vec4& slope, StemSide side) {
+  if (!profile.hasLikelihood) return glm::length(glm::vec3(slope));
+  return side == StemSide::Left ? slope.w : -slope.w;
+}
+
 }  // namespace
 
 RidgeProfile profileAcross(const Photo& photo, const StemLikelihood& likelihood, glm::dvec2 centre, glm::dvec2 across, const ProfileOptions& options) {
@@ -91,29 +108,17 @@ RidgeProfile profileAcross(const Photo& photo, const StemLikelihood& likelihood,
   return profile;
 }
 
-double ridgeStrength(const RidgeProfile& profile, double left, double right) {
-  const glm::vec4 in = slopeAt(profile, left), out = -slopeAt(profile, right);  // inside minus outside, both
-  const glm::vec3 a(in), b(out);
-  const double la = glm::length(a), lb = glm::length(b);
-  const double alike = la * lb > 0 ? glm::dot(a, b) / (la * lb) : 0;
-  const double colour = std::min(la, lb) * (2 + alike) / 3;
-  if (!profile.hasLikelihood) return colour;
-  const double stem = std::min(in.w, out.w);
-  return stem <= 0 ? 0 : std::min(colour, 60.0) * 0.5 + kLikelihoodWeight * stem;
-}
+double ridgeStrength(const RidgeProfile& profile, double left, double right) { return strengthOf(profile, slopeAt(profile, left), slopeAt(profile, right)); }
 
 double ridgeStrengthOfKnownWidth(const RidgeProfile& profile, double left, double right) {
-  const double both = ridgeStrength(profile, left, right);
-  const double a = edgeStrength(profile, left, StemSide::Left), b = edgeStrength(profile, right, StemSide::Right);
+  const glm::vec4 atLeft = slopeAt(profile, left), atRight = slopeAt(profile, right);
+  const double both = strengthOf(profile, atLeft, atRight);
+  const double a = edgeOf(profile, atLeft, StemSide::Left), b = edgeOf(profile, atRight, StemSide::Right);
   const double one = std::min(a, b) < -0.15 * std::max(a, b) ? 0 : 0.45 * std::max(a, b);
   return std::max(both, one);
 }
 
-double edgeStrength(const RidgeProfile& profile, double at, StemSide side) {
-  const glm::vec4 slope = slopeAt(profile, at);
-  if (!profile.hasLikelihood) return glm::length(glm::vec3(slope));
-  return side == StemSide::Left ? slope.w : -slope.w;
-}
+double edgeStrength(const RidgeProfile& profile, double at, StemSide side) { return edgeOf(profile, slopeAt(profile, at), side); }
 
 double sharpened(const RidgeProfile& profile, double at, double reach_px) {
   const auto heightAt = [&](double x) { return static_cast<double>(glm::length(slopeAt(profile, x))); };

@@ -91,23 +91,29 @@ std::vector<float> costsOf(const RidgeProfile& profile, const Grid& grid, double
   return costs;
 }
 
-/// One step of the recursion: the cheapest way to each state, and from which.
+/// One step of the recursion: the cheapest way to each state, and from which. Both kinds of steps cost by themselves, so the best of one
+/// kind is found first and then the best of the other.
 void step(const Grid& grid, const std::vector<float>& before, std::vector<float>& now, std::vector<std::int8_t>& from) {
   const int rows = static_cast<int>(grid.middles.size()), columns = static_cast<int>(grid.widths.size());
-  for (int m = 0; m < rows; ++m)
+  std::vector<float> least(static_cast<std::size_t>(columns));
+  std::vector<std::int8_t> shift(static_cast<std::size_t>(columns));
+  for (int m = 0; m < rows; ++m) {
+    std::fill(least.begin(), least.end(), std::numeric_limits<float>::max());
+    for (int dm = std::max(-kMaxShift, -m); dm <= std::min(kMaxShift, rows - 1 - m); ++dm)
+      for (int w = 0; w < columns; ++w)
+        if (const float cost = before[static_cast<std::size_t>((m + dm) * columns + w)] + 0.12F * static_cast<float>(dm * dm); cost < least[static_cast<std::size_t>(w)])
+          least[static_cast<std::size_t>(w)] = cost, shift[static_cast<std::size_t>(w)] = static_cast<std::int8_t>(dm);
     for (int w = 0; w < columns; ++w) {
       float best = std::numeric_limits<float>::max();
-      std::int8_t which = 0;
-      for (int dm = -kMaxShift; dm <= kMaxShift; ++dm)
-        for (int dw = -1; dw <= 1; ++dw) {
-          if (m + dm < 0 || m + dm >= rows || w + dw < 0 || w + dw >= columns) continue;
-          const float cost = before[static_cast<std::size_t>((m + dm) * columns + w + dw)] + 0.12F * static_cast<float>(dm * dm) + 0.35F * static_cast<float>(dw * dw);
-          if (cost < best) best = cost, which = static_cast<std::int8_t>((dm + kMaxShift) * 3 + dw + 1);
-        }
+      int which = 0;
+      for (int dw = std::max(-1, -w); dw <= std::min(1, columns - 1 - w); ++dw)
+        if (const float cost = least[static_cast<std::size_t>(w + dw)] + 0.35F * static_cast<float>(dw * dw); cost < best)
+          best = cost, which = (shift[static_cast<std::size_t>(w + dw)] + kMaxShift) * 3 + dw + 1;
       const auto i = static_cast<std::size_t>(m * columns + w);
       now[i] += best;
-      from[i] = which;
+      from[i] = static_cast<std::int8_t>(which);
     }
+  }
 }
 
 void addClick(const Grid& grid, std::vector<float>& costs, double off, double click_px) {

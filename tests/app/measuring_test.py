@@ -242,6 +242,20 @@ class Skeleton(Case):
         _, err = self.skeleton(made)
         self.assertIn("view 'front' cuts the plant off", err)
 
+    def test_photos_of_one_grey_or_far_out_of_focus_keep_every_click_and_say_so(self):
+        made = project()
+        for view in made["views"]:
+            view["photo"] = view["name"] + ".bmp"
+        unsnapped = [view | {"photo": ""} for view in made["views"]]
+        bare, _ = self.skeleton(made | {"views": unsnapped})
+        far_out = bytes(120 + x * 60 // SIZE[0] for x in range(SIZE[0]) for _ in range(3))  # nothing is left but a slope of light
+        for name in NOMINAL:
+            (self.folder / f"{name}.bmp").write_bytes(bitmap(*SIZE)[:54] + (far_out if name == "right" else b"\x7a" * (3 * SIZE[0])) * SIZE[1])
+        skeleton, err = self.skeleton(made, "--snap")
+        self.assertIn(f"0 of {3 * len(made['nodes'])} clicks were snapped", err)
+        for node, other in zip(skeleton["nodes"], bare["nodes"]):
+            self.assertLess(math.dist(node["position"], other["position"]), 1e-4)
+
     def test_a_node_of_one_view_waits(self):
         made = project()
         del made["nodes"][14]["clicks"]["right"], made["nodes"][14]["clicks"]["top"]
