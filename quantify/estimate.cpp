@@ -15,6 +15,7 @@ constexpr int kSteps = 50;
 constexpr int kRounds = 10;             // of a trend
 constexpr double kMostExtrapolation = 10;
 constexpr double kClear = 2;            // standard errors by which a layer is another thing than its parent
+constexpr double kCertain = 5;          // and by which it has nothing to do with it
 constexpr double kNormalTail = 2.3;     // deviations beyond which plants are said to differ, 1 %
 
 /// Reorders `values`.
@@ -278,7 +279,7 @@ Estimate estimateOf(std::span<const Sample> samples, SampleKind kind) {
   return estimate;
 }
 
-void pool(std::vector<Estimate*>& sisters, std::span<const double> expected) {
+void pool(std::vector<Estimate*>& sisters, std::span<const double> expected, SampleKind kind) {
   if (sisters.size() < 2) return;
   std::vector<double> off;
   std::vector<double> variances;
@@ -286,7 +287,8 @@ void pool(std::vector<Estimate*>& sisters, std::span<const double> expected) {
   for (const Estimate* e : sisters) widest = std::max(widest, e->deviation);
   for (std::size_t i = 0; i < sisters.size(); ++i) {
     // A single sample has no spread of its own; it is as unsure as a sample of its sisters.
-    const double spread = std::max(sisters[i]->error, sisters[i]->samples < 2 ? widest : 0);
+    double spread = std::max(sisters[i]->error, sisters[i]->samples < 2 ? widest : 0);
+    if (kind == SampleKind::Share) spread = std::max(spread, std::sqrt(std::max(0.0, expected[i] * (1 - expected[i])) / static_cast<double>(std::max<std::size_t>(1, sisters[i]->samples))));
     off.push_back(sisters[i]->own - expected[i]);
     variances.push_back(spread * spread);
   }
@@ -295,7 +297,8 @@ void pool(std::vector<Estimate*>& sisters, std::span<const double> expected) {
     const double unsure = variances[i];
     const double total = unsure + between * between;
     // A layer that is clearly off its parent is another thing, and keeps to itself (the limited translation of Efron and Morris 1972).
-    const double clearly = off[i] * off[i] > kClear * kClear * unsure ? kClear * kClear * unsure / (off[i] * off[i]) : 1;
+    const double far = unsure > 0 ? off[i] * off[i] / unsure : 0;
+    const double clearly = far > kCertain * kCertain ? 0 : far > kClear * kClear ? kClear * kClear / far : 1;
     sisters[i]->pooled = total > 0 ? clearly * unsure / total : 0;
     sisters[i]->value = sisters[i]->own - sisters[i]->pooled * off[i];
   }

@@ -35,8 +35,9 @@ struct Combined {
 enum class SampleKind { Plain, Share };
 [[nodiscard]] Estimate estimateOf(std::span<const Sample> samples, SampleKind kind);
 
-/// Draws sisters towards what their parent layer expects of each (`expected`), by empirical Bayes.
-void pool(std::vector<Estimate*>& sisters, std::span<const double> expected);
+/// Draws sisters towards what their parent layer expects of each (`expected`), by empirical Bayes. A share is as unsure as its samples would be if the parent were right: none of
+/// three is no certainty.
+void pool(std::vector<Estimate*>& sisters, std::span<const double> expected, SampleKind kind);
 
 /// The trend of samples that stand on axes: entries of `axisOf` are alike where samples share an axis.
 [[nodiscard]] Trend trendOf(std::span<const Sample> samples, std::span<const std::size_t> axisOf, bool logarithmic);

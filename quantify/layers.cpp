@@ -147,7 +147,7 @@ void poolRanks(OrderLayer& layer, Kind kind) {
     sisters.push_back(&rank.estimate);
     expected.push_back(follows ? layer.trend.at(rank.rank) : layer.estimate.value);
   }
-  pool(sisters, expected);
+  pool(sisters, expected, sampleKindOf(kind));
 }
 
 QuantityLayers layersOf(const std::vector<Sample>& samples, const std::vector<std::size_t>& axes, Kind kind) {
@@ -173,7 +173,7 @@ QuantityLayers layersOf(const std::vector<Sample>& samples, const std::vector<st
   }
   std::vector<Estimate*> sisters;
   for (OrderLayer& layer : layers.orders) sisters.push_back(&layer.estimate);
-  pool(sisters, std::vector<double>(sisters.size(), layers.all.value));
+  pool(sisters, std::vector<double>(sisters.size(), layers.all.value), sampleKindOf(kind));
   for (OrderLayer& layer : layers.orders) poolRanks(layer, kind);
   if (kind == Kind::Ratio) {
     exponentiate(layers.all);
