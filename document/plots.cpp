@@ -38,7 +38,7 @@ Plot plotOf(const quantify::LayeredStatistics& s, const QuantityName& name) {
   plot.counted = true;
   // Nothing shown is below 0, and no share above 1, whatever two standard errors say.
   const double most = name.kind == QuantityName::Kind::Share ? 1 : std::numeric_limits<double>::infinity();
-  const auto shown = [&](double value) { return name.kind == QuantityName::Kind::Angle && std::abs(value * factor) < kNoAngle ? 0 : value * factor; };
+  const auto shown = [&](double value) { return name.kind == QuantityName::Kind::Angle ? kNoAngle * std::round(value * factor / kNoAngle) + 0.0 : value * factor; };
   for (const auto& layer : s.of(name.quantity).orders) {
     if (plot.series.size() == kMostOrders) break;
     PlotSeries series;
