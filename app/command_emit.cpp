@@ -7,8 +7,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
 #include <filesystem>
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -72,6 +74,13 @@ std::string misplacedOption(const CLI::App& sub, const EmitCommand& command) {
   return {};
 }
 
+/// What the grammar's heading warns of is said in words too, since who pipes the text on may never read it.
+void repeatWarnings(const simeco::Grammar& grammar) {
+  constexpr std::string_view kWarning = "// Warning: ";
+  for (const std::string& line : grammar.comments.before)
+    if (line.starts_with(kWarning)) std::fprintf(stderr, "axil: warning: %s\n", line.substr(kWarning.size()).c_str());
+}
+
 /// To OUT, with the files that the dialect wants beside it; without OUT the text alone, to stdout.
 int written(const emit::DialectText& text, const std::string& out) {
   if (out.empty()) return print(text.text);
@@ -98,6 +107,7 @@ int run(const EmitCommand& command) {
                                        .watch = terminalWatch()};
   const auto grammar = grammarIn(command, options);
   if (!grammar) return report(grammar.error());
+  repeatWarnings(*grammar);
   const auto text = emit::inDialect(*grammar, command.dialect, {.seed = command.seed});
   return text ? written(*text, command.out) : report(text.error());
 }
