@@ -2,9 +2,11 @@
 
 #include "base/text.hpp"
 #include "emit/assembly.hpp"
-#include "emit/builder.hpp"
 #include "emit/plan.hpp"
+#include "emit/predictive_expressions.hpp"
 #include "emit/predictive_thesis.hpp"
+#include "emit/predictive_words.hpp"
+#include "emit/unmade.hpp"
 #include "quantify/outlook.hpp"
 #include "quantify/statistics.hpp"
 #include "simeco/growth.hpp"
@@ -32,8 +34,6 @@ using simeco::OrganKind;
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kNoBend = 0.2 * std::numbers::pi / 180;
-constexpr double kRare = 1e-3;          // fates rarer than this are left out
-constexpr double kNinety = 1.6448536269514722;
 constexpr double kLongest = 2;          // a trend that grows stops at this many times the longest measured
 constexpr const char* kNames[] = {"rank", "length", "around", "side", "wait", "left"};
 
@@ -53,10 +53,10 @@ struct ApexStart {
   ExprId left;
 };
 
-class Predictor {
+class Predictor : PredictiveExpressions {
  public:
   Predictor(const Measurements& m, const Plan& plan, const EmitOptions& options, const PredictiveOptions& predictive, Outlook outlook, Assembled initial)
-      : m_(m), plan_(plan), options_(options), predictive_(predictive), outlook_(std::move(outlook)), out_(std::move(initial)), builder_(out_.grammar),
+      : PredictiveExpressions(std::move(initial), plan.digits, outlook.now() + predictive.stages), m_(m), plan_(plan), options_(options), predictive_(predictive), outlook_(std::move(outlook)),
         firstStem_(plan.firstFreeStage()), nextLeaf_(static_cast<int>(plan.leafStages.size()) + 1) {
     firstApex_ = 1000 * (1 + std::max(firstStem_, out_.firstFreeApex) / 1000);
     firstBud_ = firstApex_ + 1000 * (1 + topOrder() / 1000);
@@ -78,7 +78,7 @@ class Predictor {
       for (int order = 0; order <= topOrder(); ++order) addStartRule(order);
       for (int order = 0; order <= topOrder(); ++order) addOrderRules(outlook_.of(order));
     }
-    dropUnused();
+    dropUnmade(out_.grammar, firstApex_);
     out_.grammar.version = "1.1";
     addHeading();
     return std::move(out_.grammar);
@@ -96,82 +96,7 @@ class Predictor {
   simeco::RuleSet& rules() { return out_.grammar.plants.front().rules; }
   std::vector<simeco::Stage>& stages(OrganKind kind) { return blockOf(out_.grammar.plants.front(), kind).stages; }
 
-  // ---- expressions ---------------------------------------------------------------------------------------------------
-
-  ExprId angle(double radians) { return builder_.number(rounded(radians, plan_.digits.angle) + 0.0, plan_.digits.angle); }
-  ExprId size(double length) { return builder_.number(length, plan_.digits.length); }
-  ExprId ratio(double value) { return builder_.number(value, 4); }
-  ExprId name(const char* text) { return builder_.name(text); }
-  ExprId plus(ExprId a, ExprId b) { return builder_.binary(BinaryOp::Add, a, b); }
-  ExprId minus(ExprId a, ExprId b) { return builder_.binary(BinaryOp::Subtract, a, b); }
-  ExprId times(ExprId a, ExprId b) { return builder_.binary(BinaryOp::Multiply, a, b); }
-  ExprId anySide() { return builder_.call("random", {angle(-std::numbers::pi), angle(std::numbers::pi)}); }
-  ExprId drawnAngle(double mean, double deviation) {
-    if (rounded(deviation, plan_.digits.angle) == 0) return angle(mean);
-    return builder_.call("normal", {angle(mean), angle(deviation)});
-  }
-  ExprId scaled(ExprId length, double factor) { return std::abs(factor - 1) < 5e-5 ? length : times(length, ratio(factor)); }
-  /// exp(factor * of)
-  ExprId exponential(double factor, ExprId of) { return builder_.call("exp", {times(builder_.number(factor, 6), of)}); }
-  /// What a bow is made of at `place`: exp(-pace * (place - middle)), and 1 more or 1 less that.
-  ExprId bowTerm(const quantify::Bow& bow, ExprId place) {
-    return exponential(-bow.pace, bow.middle < 0 ? plus(place, builder_.number(-bow.middle, 4)) : minus(place, builder_.number(bow.middle, 4)));
-  }
-  ExprId bowSum(const quantify::Bow& bow, ExprId place) {
-    if (bow.sign > 0) return plus(builder_.whole(1), bowTerm(bow, place));
-    return builder_.call("max", {builder_.number(quantify::Bow::kLeast, 2), minus(builder_.whole(1), bowTerm(bow, place))});
-  }
-  /// A bow's value at `place` over that at `under`. Without quotients of what may be nothing.
-  ExprId bowRatio(const quantify::Bow& bow, ExprId place, ExprId under) {
-    if (bow.shape == quantify::Bow::Shape::Logistic) std::swap(place, under);
-    if (bow.shape != quantify::Bow::Shape::Gompertz) return builder_.binary(BinaryOp::Divide, bowSum(bow, place), bowSum(bow, under));
-    const ExprId more = bowTerm(bow, place), less = bowTerm(bow, under);
-    return builder_.call("exp", {bow.sign > 0 ? minus(more, less) : minus(less, more)});
-  }
-  ExprId bowAt(const quantify::Bow& bow, ExprId place) {
-    using Shape = quantify::Bow::Shape;
-    switch (bow.shape) {
-      case Shape::Mitscherlich: return bowSum(bow, place);
-      case Shape::Logistic: return builder_.binary(BinaryOp::Divide, builder_.whole(1), bowSum(bow, place));
-      case Shape::Gompertz: return exponential(bow.sign, bowTerm(bow, place));
-    }
-    return place;
-  }
-  /// `length` of the place `from` carried on to the next one.
-  ExprId carriedOn(const OrderOutlook& o, ExprId length, ExprId from) {
-    const auto& course = o.length;
-    if (course.bow) return times(length, bowRatio(*course.bow, plus(from, builder_.whole(1)), from));
-    const ExprId next = scaled(length, course.step);
-    return course.curve == 1 ? next : times(next, exponential(std::log(course.curve), from));
-  }
-  /// And back from the next place to `from`.
-  ExprId carriedBack(const OrderOutlook& o, ExprId length, double ratioToIt, ExprId from) {
-    const auto& course = o.length;
-    if (course.bow) return times(scaled(length, ratioToIt), bowRatio(*course.bow, from, plus(from, builder_.whole(1))));
-    const ExprId below = scaled(length, ratioToIt / course.step);
-    return course.curve == 1 ? below : times(below, exponential(-std::log(course.curve), from));
-  }
-  /// The usual first length of axes that begin in a stage of the plant.
-  ExprId usualAt(const OrderOutlook& o, ExprId stage) {
-    const auto& course = o.length;
-    if (course.bow) return times(size(o.usualLength), bowAt(*course.bow, stage));
-    const ExprId length = times(size(o.usualLength), exponential(std::log(course.step), stage));
-    return course.curve == 1 ? length : times(length, exponential(std::log(course.curve) / 2, times(stage, minus(stage, builder_.whole(1)))));
-  }
-  /// Whether lengths may grow without end.
-  static bool growsOn(const quantify::LengthOutlook& course) { return !course.bow && (course.step > 1 + 5e-5 || course.curve > 1); }
-  /// The stage of the plant in which an apex makes what it makes next.
-  ExprId stageNow() { return minus(builder_.number(outlook_.now() + predictive_.stages + 1, 4), name("left")); }
-  /// The place on its order's course, by rank or by the plant's stages, of the segment that is being made; `below` it.
-  ExprId courseAt(const OrderOutlook& o, ExprId rank, int below) {
-    if (o.length.along == quantify::LengthsAlong::Stage) return below == 0 ? stageNow() : minus(stageNow(), builder_.whole(below));
-    return below == 0 ? rank : minus(rank, builder_.whole(below));
-  }
-  /// `length` with the order's chance around it.
-  ExprId varied(ExprId length, double miss) {
-    if (miss < 5e-5) return length;
-    return times(length, builder_.call("exp", {builder_.call("normal", {builder_.whole(0), ratio(std::min(miss, 1.0))})}));
-  }
+  // ---- apices --------------------------------------------------------------------------------------------------------
 
   Module apex(int number, const ApexStart& start, bool turns) {
     return Builder::module("A", {builder_.whole(number), start.rank, start.length, start.around, turns ? anySide() : builder_.whole(0), start.wait, start.left});
@@ -180,10 +105,6 @@ class Predictor {
     std::vector<ExprId> arguments{builder_.whole(number)};
     for (const char* word : kNames) arguments.push_back(name(word));
     return arguments;
-  }
-  void turn(std::vector<Module>& to, ExprId rotr, ExprId rotu) {
-    to.push_back(Builder::module("rotr", {rotr}));
-    to.push_back(Builder::module("rotu", {rotu}));
   }
   static bool bends(const OrderOutlook& o) { return o.bend.value > kNoBend; }
 
@@ -512,75 +433,6 @@ class Predictor {
       }
   }
 
-  /// Rules and stages of apices that nothing makes would only be warned of.
-  void dropUnused() {
-    auto& productions = rules().productions;
-    for (bool dropped = true; dropped;) {
-      std::map<std::pair<std::string, int>, bool> made;
-      const auto note = [&](const std::vector<Module>& modules, const Module* own) {
-        for (const Module& module : modules)
-          if (const auto number = numberOf(module); number && !(own != nullptr && module.letter == own->letter && number == numberOf(*own))) made[{module.letter, *number}] = true;
-      };
-      note(rules().axiom, nullptr);
-      for (const auto& rule : productions)
-        for (const auto& successor : rule.successors) note(successor.modules, &rule.predecessor.front());
-      const auto before = productions.size();
-      std::erase_if(productions, [&](const simeco::Production& rule) {
-        const Module& own = rule.predecessor.front();
-        const auto number = numberOf(own);
-        return own.letter == "A" && number && *number >= firstApex_ && !made.contains({"A", *number});
-      });
-      dropped = productions.size() < before;
-      if (dropped) continue;
-      for (const OrganKind kind : {OrganKind::Stem, OrganKind::Leaf})
-        std::erase_if(stages(kind), [&](const simeco::Stage& stage) { return !made.contains({kind == OrganKind::Stem ? "S" : "L", stage.number}); });
-    }
-  }
-
-  [[nodiscard]] std::optional<int> numberOf(const Module& module) const {
-    if (module.arguments.empty()) return std::nullopt;
-    const auto* number = std::get_if<simeco::Number>(&out_.grammar.at(module.arguments.front()).node);
-    return number == nullptr ? std::nullopt : std::optional(static_cast<int>(number->value));
-  }
-
-  // ---- words -----------------------------------------------------------------------------------------------------------
-
-  std::vector<std::string> commentsFor(const OrderOutlook& o) const {
-    std::string fates;
-    for (const Fate& fate : o.fates.fates) {
-      if (fate.share < kRare) continue;
-      const std::string branches = fate.branches == 0 ? "" : " with " + countOf(static_cast<std::size_t>(fate.branches), "branch", "branches");
-      fates += (fates.empty() ? "" : ", ") + (fate.goesOn ? "goes on" + branches : fate.branches > 0 ? "forks into " + std::to_string(fate.branches) : std::string("ends")) + " " + fixed(100 * fate.share, 0) + " %";
-    }
-    std::vector<std::string> lines{"// Order " + std::to_string(o.order) + ", from " + countOf(o.segments, "segment", "segments") + ": an apex " + fates + shapeWords(o.fates) + "."};
-    std::string growth = "// Its next length is foretold from " + std::string(quantify::nameOf(o.length.rule)) + ", " + courseWords(o.length) + "; 90 % within a factor of " +
-                         fixed(std::exp(kNinety * o.length.miss), 3) + " (" + countOf(o.length.samples, "sample", "samples") + ").";
-    if (!o.schedule.steady) growth += " It makes " + fixed(o.schedule.rate, 2) + " segments a stage" + (o.schedule.lasting ? " for " + fixed(*o.schedule.lasting, 0) + " stages." : ".");
-    if (o.most) growth += " Axes end after " + countOf(static_cast<std::size_t>(*o.most), "segment", "segments") + ".";
-    lines.push_back(growth);
-    return lines;
-  }
-
-  static std::string courseWords(const quantify::LengthOutlook& course) {
-    const std::string place = course.along == quantify::LengthsAlong::Stage ? "stage" : "rank";
-    const std::string along = course.along == quantify::LengthsAlong::Stage ? "a stage of the plant" : "a rank";
-    if (!course.bow) return "x " + fixed(course.step, 4) + " " + along + (course.curve == 1 ? "" : ", itself x " + fixed(course.curve, 4) + " " + along);
-    const bool falls = course.bow->at(1) < course.bow->at(0);
-    const std::string what = course.bow->pace < 0 ? "which fall from a level" : falls ? "which fall to a level" : "which rise to a level";
-    return what + " by the " + place + " (" + quantify::nameOf(course.bow->shape) + ", pace " + fixed(course.bow->pace, 3) + " " + along + ", middle at " + place + " " + fixed(course.bow->middle, 1) + ")";
-  }
-
-  static std::string shapeWords(const quantify::FateTable& table) {
-    using Shape = quantify::FateTable::Shape;
-    switch (table.shape) {
-      case Shape::Alike: return "";
-      case Shape::FirstRanks: return " on average; the first " + std::to_string(table.byRank.size() - 1) + " of an axis are their own";
-      case Shape::Periodic: return " on average; every " + std::to_string(table.byRank.size()) + ". node is alike";
-      case Shape::Rising: return std::string(" on average; branches come ") + (table.branchingAt(1) > table.branchingAt(0) ? "oftener" : "seldomer") + " the higher a node stands";
-    }
-    return "";
-  }
-
   void addHeading() {
     int depth = 0;
     for (const auto& s : m_.segments) depth = std::max(depth, s.level + 1);
@@ -598,8 +450,6 @@ class Predictor {
   const EmitOptions& options_;
   const PredictiveOptions& predictive_;
   Outlook outlook_;
-  Assembled out_;
-  Builder builder_;
   int firstStem_;
   int nextLeaf_;
   int firstLeaf_ = 0;
