@@ -7,6 +7,7 @@
 #include "simeco/turtle_parts.hpp"
 
 #include <array>
+#include <new>
 #include <thread>
 
 namespace axil::simeco {
@@ -83,7 +84,17 @@ class PartDrawer {
  public:
   PartDrawer(const Derivation& derivation, const LSystemPlantOptions& options) : derivation_(derivation), options_(options) {}
 
+  /// Nothing where memory runs out: no exception leaves a thread. The way that draws all as one then says so.
   [[nodiscard]] Drawing draw(const StringPart& part) const {
+    try {
+      return drawn(part);
+    } catch (const std::bad_alloc&) {
+      return {};
+    }
+  }
+
+ private:
+  [[nodiscard]] Drawing drawn(const StringPart& part) const {
     const std::unique_ptr<ImageReader> reader = derivation_.engine->imageReader(), pathReader = derivation_.engine->imageReader();
     std::optional<TurtleStand> stand;
     PathNotes notes;
@@ -104,8 +115,6 @@ class PartDrawer {
     drawing.modules = own.made();
     return drawing;
   }
-
- private:
   [[nodiscard]] Turtle turtleOn(turtle::TurtleInput& input, TurtleSink& sink) const {
     return {derivation_.string.symbols(), input, options_.derive.view, sink, options_.derive.derive.watch};
   }
