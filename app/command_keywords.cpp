@@ -6,8 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <fstream>
 #include <iostream>
 #include <string>
+#include <utility>
 
 namespace axil::app {
 
@@ -20,22 +22,23 @@ struct KeywordsCommand {
   std::string gallery;  ///< a picture of all shapes goes here; empty: none
 };
 
-constexpr std::uintmax_t kMaximumTextBytes = keywords::descriptionLimitBytes;
-
-Failure tooLong(const std::string& file) {
-  return fail(ErrorCode::LimitReached, file + " has more than " + std::to_string(kMaximumTextBytes / 1'000'000) + " MB, the limit for a description; cut it into parts, for example with `split -C 10M`");
-}
-
-Result<std::string> textOf(const std::string& file) {
-  if (file != "-") {
-    auto text = readFile(file, kMaximumTextBytes);
-    return !text && text.error().code == ErrorCode::LimitReached ? Result<std::string>(tooLong(file)) : text;
+/// A file's or standard input's bytes, some at a time.
+class Bytes {
+ public:
+  explicit Bytes(const std::string& file) {
+    if (file != "-") opened_.open(file, std::ios::binary);
   }
-  std::string text;
-  for (char c; text.size() <= kMaximumTextBytes && std::cin.get(c);) text.push_back(c);
-  if (text.size() > kMaximumTextBytes) return tooLong("standard input");
-  return text;
-}
+  [[nodiscard]] std::string next(std::size_t most) {
+    std::istream& in = opened_.is_open() ? static_cast<std::istream&>(opened_) : std::cin;
+    std::string bytes(most, '\0');
+    in.read(bytes.data(), static_cast<std::streamsize>(most));
+    bytes.resize(static_cast<std::size_t>(in.gcount()));
+    return bytes;
+  }
+
+ private:
+  std::ifstream opened_;
+};
 
 /// Drawing needs heavy libraries: where this program does not have them, the one that has goes on.
 int gallery(std::string out) {
@@ -45,6 +48,33 @@ int gallery(std::string out) {
   return handOver("axil-draw", arguments);
 }
 
+int refuse(const KeywordsCommand& command, const Error& error) {
+  return report({error.code, (command.file == "-" ? "standard input" : command.file) + ": " + error.message, error.details});
+}
+
+int readWhole(const KeywordsCommand& command, const std::string& text) {
+  const auto reading = keywords::readDescription(text);
+  if (!reading) return refuse(command, reading.error());
+  const keywords::Presets presets = keywords::presetsOf(reading->traits);
+  return print(command.json ? keywords::readingJson(*reading, presets) : keywords::readingText(*reading, presets));
+}
+
+/// A text of many plants, printed as it is read: `start` and what `rest` still has.
+int readLong(const KeywordsCommand& command, std::string start, Bytes& rest) {
+  constexpr std::size_t atOnce = 1'000'000;
+  keywords::PieceReport lines(command.json ? keywords::PieceReport::Form::Json : keywords::PieceReport::Form::Text);
+  bool begun = false;
+  int status = 0;
+  const auto next = [&] { return start.empty() ? rest.next(atOnce) : std::exchange(start, {}); };
+  const auto pieces = keywords::readInPieces(next, [&](const keywords::Reading& reading) {
+    if (!begun) status = print(lines.begin());
+    begun = true;
+    if (status == 0) status = print(lines.piece(reading));
+  });
+  if (begun && status == 0) status = print(lines.end());
+  return pieces ? status : refuse(command, pieces.error());
+}
+
 int run(const KeywordsCommand& command) {
   if (!command.gallery.empty()) return gallery(command.gallery);
   if (command.vocabulary) return print(keywords::vocabularyText());
@@ -52,12 +82,14 @@ int run(const KeywordsCommand& command) {
     std::cerr << "axil: error: FILE is required, or --gallery OUT.png, or --vocabulary; `axil keywords --help` says how it is called\n";
     return 2;
   }
-  const auto bytes = textOf(command.file);
-  if (!bytes) return report(bytes.error());
-  const auto reading = keywords::readDescription(*bytes);
-  if (!reading) return report({reading.error().code, (command.file == "-" ? "standard input" : command.file) + ": " + reading.error().message, reading.error().details});
-  const keywords::Presets presets = keywords::presetsOf(reading->traits);
-  return print(command.json ? keywords::readingJson(*reading, presets) : keywords::readingText(*reading, presets));
+  Bytes bytes(command.file);
+  if (command.file == "-") {
+    const std::string start = bytes.next(keywords::descriptionLimitBytes + 1);
+    return start.size() > keywords::descriptionLimitBytes ? readLong(command, start, bytes) : readWhole(command, start);
+  }
+  const auto text = readFile(command.file, keywords::descriptionLimitBytes);
+  if (text) return readWhole(command, *text);
+  return text.error().code == ErrorCode::LimitReached ? readLong(command, bytes.next(1'000'000), bytes) : report(text.error());
 }
 
 }  // namespace

@@ -69,7 +69,8 @@ bool ParagraphReader::isGathered(std::size_t i) const {
 
 // Whether the clause goes on to say how the leaves of one node stand.
 bool ParagraphReader::isGatheredAhead(std::size_t i) const {
-  for (; i < tokens_.size() && !isSentenceEnd(i) && !is(i, ";"); ++i)
+  constexpr std::size_t near = 40;  // an endless clause must not be walked again from each of its numbers
+  for (const std::size_t end = std::min(i + near, tokens_.size()); i < end && !isSentenceEnd(i) && !is(i, ";"); ++i)
     if (found_[i].conceptAs("arrangement") != nullptr) return true;
   return false;
 }

@@ -17,11 +17,14 @@
 #include "keywords/types.hpp"
 
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <string_view>
 
 namespace axil::keywords {
 
-/// A description of this length that is dense with statements takes about a gigabyte with its traits; longer ones are refused.
+/// A description of this length that is dense with statements takes about a gigabyte with its traits; longer
+/// ones are read in pieces.
 constexpr std::size_t descriptionLimitBytes = 20'000'000;
 
 /// A file's bytes as text; `encoding` says what they were: "UTF-8", "UTF-16", "Big5", "GB18030", or several joined with " and "
@@ -32,6 +35,15 @@ constexpr std::size_t descriptionLimitBytes = 20'000'000;
 /// What `text` says, in reading order. Text that is not UTF-8 is decoded first; spans are places in the UTF-8 text. Fails as
 /// decodeDescription does.
 [[nodiscard]] Result<Reading> readDescription(std::string_view text);
+
+/// Gives the next bytes of a text; nothing at its end.
+using NextBytes = std::function<std::string()>;
+using TakeReading = std::function<void(const Reading&)>;
+/// What a text of any length says: `take` gets the reading of one piece after another, with places in the whole text. A piece is a few
+/// megabytes and ends where a line ends, so memory does not grow with the text; contradictions are looked for within a piece. Fails
+/// as readDescription does, and with LimitReached on UTF-16 and on a line in another encoding than UTF-8 that is longer than a
+/// description may be: what was taken before stands. Returns the number of pieces.
+[[nodiscard]] Result<std::size_t> readInPieces(const NextBytes& next, const TakeReading& take);
 /// Only its traits.
 [[nodiscard]] Result<Traits> readTraits(std::string_view text);
 

@@ -224,6 +224,10 @@ void putList(std::string& out, const char* name, const Entries& entries, ToJson 
 
 Json unknownJson(const UnknownTerm& term) { return {{"organ", term.organ}, {"text", term.text}, {"start", term.start}, {"end", term.end}}; }
 
+std::string unknownLine(const UnknownTerm& term) {
+  return "  " + padded(term.organ, 16) + "\"" + term.text + "\" at " + std::to_string(term.start) + "-" + std::to_string(term.end) + "\n";
+}
+
 Json contradictionJson(const Contradiction& c, const Traits& traits) {
   const auto place = [&](std::size_t i) { return Json{traits[i].start, traits[i].end}; };
   return {{"what", c.what}, {"first", place(c.first)}, {"second", place(c.second)}};
@@ -245,6 +249,38 @@ std::string readingJson(const Reading& reading, const Presets& presets) {
   out += ",\n";
   putList(out, "contradictions", reading.contradictions, [&](const Contradiction& c) { return contradictionJson(c, reading.traits); });
   return out + "\n}\n";
+}
+
+std::string PieceReport::begin() const { return form_ == Form::Json ? "{\n  \"traits\": [" : ""; }
+
+std::string PieceReport::piece(const Reading& reading) {
+  const auto add = [](std::string& list, const std::string& entry) { list += (list.empty() ? "\n    " : ",\n    ") + entry; };
+  std::string out;
+  for (const Trait& trait : reading.traits) {
+    if (form_ == Form::Json) out += (anyTrait_ ? ",\n    " : "\n    ") + indented(traitJson(trait), 4);
+    else out += traitLine(trait);
+    anyTrait_ = true;
+  }
+  for (const UnknownTerm& term : reading.unknown) {
+    if (form_ == Form::Json) add(unknown_, indented(unknownJson(term), 4));
+    else unknown_ += unknownLine(term);
+  }
+  for (const Contradiction& c : reading.contradictions) {
+    if (form_ == Form::Json) add(contradictions_, indented(contradictionJson(c, reading.traits), 4));
+    else contradictions_ += "  " + c.what + "\n";
+  }
+  return out;
+}
+
+std::string PieceReport::end() const {
+  if (form_ == Form::Json) {
+    const auto list = [](const char* name, const std::string& entries) { return std::string("  \"") + name + "\": [" + entries + (entries.empty() ? "]" : "\n  ]"); };
+    return std::string(anyTrait_ ? "\n  ]" : "]") + ",\n  \"presets\": {},\n" + list("unknown", unknown_) + ",\n" + list("contradictions", contradictions_) + "\n}\n";
+  }
+  std::string text = anyTrait_ ? "" : "No traits found.\n";
+  if (!unknown_.empty()) text += "Seen but not understood:\n" + unknown_;
+  if (!contradictions_.empty()) text += "The text contradicts itself (both are kept):\n" + contradictions_;
+  return text;
 }
 
 std::string vocabularyText() {
@@ -276,7 +312,7 @@ std::string traitsText(const Traits& traits, const Presets& presets) {
 std::string readingText(const Reading& reading, const Presets& presets) {
   std::string text = traitsText(reading.traits, presets);
   if (!reading.unknown.empty()) text += "Seen but not understood:\n";
-  for (const UnknownTerm& term : reading.unknown) text += "  " + padded(term.organ, 16) + "\"" + term.text + "\" at " + std::to_string(term.start) + "-" + std::to_string(term.end) + "\n";
+  for (const UnknownTerm& term : reading.unknown) text += unknownLine(term);
   if (!reading.contradictions.empty()) text += "The text contradicts itself (both are kept):\n";
   for (const Contradiction& c : reading.contradictions) text += "  " + c.what + "\n";
   return text;

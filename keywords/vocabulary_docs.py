@@ -51,7 +51,8 @@ read from; `--json` prints them for programs, with the presets that they set. No
 - Words set in *italics* are everyday words too: they weigh less as evidence that a text is about a plant. A paragraph must earn its reading: parts of plants with
   statements beside them, or nothing but vocabulary; things of other fields (`foreign.tsv`) count against it.
 - Digits in words, letters in numbers, broken words and units of scanned text are mended where the vocabulary shows what was meant; UTF-8, UTF-16, Big5, GB18030 and
-  files whose lines differ are read, up to 20 MB at a time; longer ones are refused. Terms that are not understood are listed, and statements that contradict each other are kept and flagged.
+  files whose lines differ are read. A text above 20 MB is read piece by piece, in memory that does not grow, and sets no presets; one in UTF-16 is refused at that
+  length. Terms that are not understood are listed, and statements that contradict each other are kept and flagged.
 
 ## How well it reads
 

@@ -105,10 +105,36 @@ class Options(unittest.TestCase):
             self.assertEqual((status, out), (1, ""))
             self.assertIn(str(path), err)
 
-    def test_more_than_the_limit_is_refused_and_says_the_limit(self):
-        status, out, err = axil("-", given=b"Leaves ovate. " * (100_000_001 // 14 + 1))
-        self.assertEqual((status, out), (1, ""))
-        self.assertIn("limit", err)
+    def test_a_text_of_any_length_is_read_in_pieces(self):
+        text = "Leaves opposite, ovate.\n" + "\n" * 21_000_000 + "葉對生，farinulent，卵形。Petals 5 mm long.\n"
+        for status, out, err in (axil("-", "--json", given=text.encode()), axil(self.write("long.txt", text.encode()), "--json")):
+            self.assertEqual((status, err), (0, ""))
+            got = json.loads(out)
+            self.assertEqual([t["text"] for t in got["traits"]][-1], "5 mm long")
+            for trait in got["traits"]:
+                self.assertEqual(text[trait["start"]:trait["end"]], trait["text"])
+            self.assertEqual(got["presets"], {})
+        self.assertIn("5 mm long", axil("-", given=text.encode())[1])
+
+    def test_what_cannot_be_read_in_pieces_is_refused_in_one_sentence(self):
+        big5 = "葉對生，".encode("big5") * 2_700_000  # one line
+        for data in (("\n" * 11_000_000).encode("utf-16"), big5, bytes(range(256)) * 90_000):
+            status, out, err = axil("-", given=data)
+            self.assertEqual((status, out), (1, ""))
+            self.assertEqual(len(err.strip().splitlines()), 1, err)
+
+    def test_traits_carry_the_ids_of_organ_and_value(self):
+        trait = reading("Leaves opposite.")["traits"][0]
+        self.assertEqual((trait["organ_id"], trait["id"], trait["value"], trait["text"]), ("PO:0025034", "PATO:0001933", "opposite", "opposite"))
+
+    def test_the_vocabulary_lists_every_name_with_its_words(self):
+        status, out, _ = axil("--vocabulary")
+        self.assertEqual(status, 0)
+        rows = [line.split("\t") for line in out.splitlines()]
+        self.assertEqual({len(row) for row in rows}, {8})
+        opposite = next(row for row in rows if row[:3] == ["arrangement", "leaf", "opposite"])
+        self.assertIn("對生", opposite[5])
+        self.assertGreater(len(rows), 290)
 
     def test_one_endless_line_is_read_to_its_end(self):
         got = reading("葉互生" + "，卵形" * 60_000 + "。花瓣5枚。")

@@ -141,7 +141,9 @@ TEST(TraitsJson, IsWhatTheFileFormatSays) {
     {
       "organ": "leaf",
       "property": "shape",
+      "organ_id": "PO:0025034",
       "value": "ovate",
+      "id": "PATO:0001891",
       "text": "ovate",
       "start": 7,
       "end": 12
@@ -149,6 +151,7 @@ TEST(TraitsJson, IsWhatTheFileFormatSays) {
     {
       "organ": "leaf",
       "property": "length",
+      "organ_id": "PO:0025034",
       "low": 3,
       "high": 8,
       "unit": "cm",

@@ -277,5 +277,50 @@ TEST(DecodeDescription, SaysWhichEncodingItMet) {
   EXPECT_EQ(traitsOf(text->utf8), (Lines{"leaf arrangement opposite"}));
 }
 
+// As the bytes of a file come: some at a time.
+NextBytes inBites(const std::string& text, std::size_t most) {
+  return [&text, most, at = std::size_t{0}]() mutable {
+    const std::string bytes = text.substr(std::min(at, text.size()), most);
+    at += bytes.size();
+    return bytes;
+  };
+}
+
+TEST(ReadInPieces, SaysWhatTheWholeSaysWithPlacesInTheWhole) {
+  const std::string paragraph = "Leaves opposite, ovate, 3-8 cm long; petals 5.\n\n葉互生，披針形，長3-8公分，鋸齒緣，farinulent。\n\n";
+  std::string text;
+  for (int k = 0; k < 90; ++k) text += paragraph + std::string(100'000, '\n');
+  std::size_t traits = 0;
+  std::size_t inOrder = 0;
+  const auto pieces = readInPieces(inBites(text, 700'001), [&](const Reading& reading) {
+    traits += reading.traits.size();
+    std::size_t last = 0;
+    for (const Trait& trait : reading.traits) {
+      inOrder += trait.start >= last && text.substr(trait.span.begin, trait.span.end - trait.span.begin) == trait.text ? 1 : 0;
+      last = trait.start;
+    }
+  });
+  ASSERT_TRUE(pieces) << pieces.error().message;
+  EXPECT_GE(*pieces, 2u);
+  EXPECT_EQ(traits, 90 * readTraits(paragraph)->size());
+  EXPECT_EQ(inOrder, traits);
+}
+
+TEST(ReadInPieces, CutsAnEndlessLineBetweenCharacters) {
+  std::string text = "葉";
+  while (text.size() < 4'500'000) text += "                              葉";
+  const auto pieces = readInPieces(inBites(text, 1'000'000), [](const Reading&) {});
+  ASSERT_TRUE(pieces) << pieces.error().message;
+  EXPECT_EQ(*pieces, 2u);
+}
+
+TEST(ReadInPieces, RefusesNothingAndWhatIsNoText) {
+  for (const std::string& text : {std::string(), std::string(9'000'000, '\n'), std::string(9'000'000, '\1')}) {
+    const auto pieces = readInPieces(inBites(text, 1'000'000), [](const Reading&) { ADD_FAILURE() << "nothing was to be read"; });
+    ASSERT_FALSE(pieces);
+    EXPECT_EQ(pieces.error().code, ErrorCode::BadInput);
+  }
+}
+
 }  // namespace
 }  // namespace axil::keywords
