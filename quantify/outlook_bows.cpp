@@ -229,10 +229,10 @@ std::pair<double, double> evenSquares(const Points& points) {
   return {std::max(0.0, line), std::max(0.0, parabola)};
 }
 
-/// Of steps that are alike, or change evenly.
-double evenCriterion(const Points& points) {
+/// Below what a bow's criterion must lie: clearly that of steps that are alike, and that of steps that change evenly, which run off further where nothing is seen any more.
+double boundOf(const Points& points) {
   const auto [line, parabola] = evenSquares(points);
-  return std::min(criterion(line, points.free, 1), criterion(parabola, points.free, 2));
+  return std::min(criterion(line, points.free, 1) - kMore, criterion(parabola, points.free, 2));
 }
 
 /// The course on a bow, with the doubt that points leave about it.
@@ -275,7 +275,7 @@ SharedBows sharedBows(std::span<const AxisLengths> axes) {
     weigh(points);
     if (points.free < kFewFree) continue;
     const Fit fit = bestBow(points);
-    if (criterion(fit.squares, points.free, 2) >= evenCriterion(points) - kMore) continue;
+    if (criterion(fit.squares, points.free, 2) >= boundOf(points)) continue;
     (along == LengthsAlong::Rank ? shared.byRank : shared.byStage) = fit.bow;
   }
   return shared;
@@ -285,7 +285,7 @@ std::optional<OrderCourse> bowedCourse(std::span<const AxisLengths> axes, Length
   Points points = pointsOf(axes, along);
   weigh(points);
   if (points.free < 4) return std::nullopt;
-  double least = evenCriterion(points) - kMore;
+  double least = boundOf(points);
   std::optional<OrderCourse> best;
   if (points.free >= kFewFree) {
     const Fit own = bestBow(points);
