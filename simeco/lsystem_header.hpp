@@ -45,7 +45,8 @@ class HeaderParser : protected LineParser {
     skip();
     const std::size_t begin = at_;
     std::size_t stop = end;
-    while (stop > begin && isBlank(text_[stop - 1])) --stop;
+    // Carriage returns too: of several at the end of a line only the last belongs to the line end.
+    while (stop > begin && (isBlank(text_[stop - 1]) || text_[stop - 1] == '\r')) --stop;
     rules.label = std::string(text_.substr(begin, stop - begin));
     if (rules.label.empty()) errorHere("the label of the L-system is missing", "write Lsystem: 1");
     if (const std::size_t bad = rules.label.find_first_of("<>:*"); bad != std::string::npos)

@@ -327,5 +327,12 @@ TEST(LSystemLanguage, AnyGrammarIsPrintedSoThatItReadsBack) {
   for (std::uint64_t seed = 1; seed <= 300 && !HasFailure(); ++seed) expectRoundTrip(Chance(seed).grammar(), "seed " + std::to_string(seed));
 }
 
+TEST(LSystemLanguage, ALabelEndsBeforeCarriageReturns) {
+  const Parsed parsed = parseLSystem("Lsystem: one\r\r\r\nAxiom: A\nA --> B\nendlsystem\n");
+  ASSERT_TRUE(parsed.ok());
+  EXPECT_EQ(parsed.grammar.name, "one");
+  EXPECT_EQ(parseLSystem(print(parsed.grammar)).grammar, parsed.grammar);
+}
+
 }  // namespace
 }  // namespace axil::simeco
