@@ -42,8 +42,9 @@ struct PlantBox {
   glm::dvec2 to{0, 0};
 };
 
-/// The plant in `photo` by the colours inside and outside `box` (OpenCV's grabCut on half a million pixels at most, its border then by
-/// each pixel's own colour). Fails with BadInput for a box or photo of next to no size, with NoAnswer where nothing is left, with Cancelled.
+/// The plant in `photo` by the colours inside and outside `box` (OpenCV's grabCut on a hundred thousand pixels at most, begun with what looks
+/// unlike all that is usual outside the box; its border then by each pixel's own colour). Before a wall of many colours it finds what is
+/// strangest there, which may be no plant. Fails with BadInput for a box or photo of next to no size, with NoAnswer where nothing is left, with Cancelled.
 [[nodiscard]] Result<Mask> maskByColour(const Photo& photo, const PlantBox& box, const Watch& watch = {});
 
 struct DraftOptions {

@@ -6,6 +6,7 @@
 #include "skeleton3d/photo.hpp"
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <vector>
