@@ -48,7 +48,7 @@ int run(const CalibrateCommand& command) {
     if (!options.corners) return report({ErrorCode::BadInput, "--corners takes inner corners across and down, such as 9x6, not '" + command.corners + "'", {}});
   }
   const std::vector<std::filesystem::path> photos(command.photos.begin(), command.photos.end());
-  const auto lens = skeleton3d::calibrateLens(photos, options);
+  const auto lens = skeleton3d::calibrateLens(photos, options, terminalWatch());
   if (!lens) return report(lens.error());
   for (const auto& photo : lens->photos)
     if (!photo.fault.empty()) std::fprintf(stderr, "axil: note: %s is left out: %s\n", photo.name.c_str(), photo.fault.c_str());

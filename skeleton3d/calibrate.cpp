@@ -60,7 +60,7 @@ std::vector<glm::ivec2> boardsToTry(const CalibrateOptions& options) {
   return {{10, 7}, {9, 7}, {9, 6}, {8, 6}, {7, 7}, {8, 5}, {7, 6}, {7, 5}, {6, 5}, {6, 4}, {5, 4}};
 }
 
-Result<Looked> lookedAt(std::span<const std::filesystem::path> photos, const CalibrateOptions& options) {
+Result<Looked> lookedAt(std::span<const std::filesystem::path> photos, const CalibrateOptions& options, const Watch& watch) {
   Looked looked;
   std::vector<glm::ivec2> boards = boardsToTry(options);
   for (const auto& path : photos) {
@@ -72,6 +72,8 @@ Result<Looked> lookedAt(std::span<const std::filesystem::path> photos, const Cal
                                            std::to_string(looked.size.width) + " x " + std::to_string(looked.size.height) + "; calibrate with photos of one size, held one way up");
     CalibratedPhoto photo{path.filename().string(), 0, "the board was not found"};
     for (const glm::ivec2 board : boards) {
+      if (watch.cancelled()) return fail(ErrorCode::Cancelled, "looking for the chessboard was stopped");
+      watch.report("looking for the chessboard", static_cast<double>(looked.photos.size()) / static_cast<double>(photos.size()));
       auto corners = cornersIn(*grey, board);
       if (corners.empty()) continue;
       looked.found.push_back({looked.photos.size(), std::move(corners)});
@@ -191,11 +193,11 @@ Result<CalibratedLens> calibrated(Looked looked) {
 
 }  // namespace
 
-Result<CalibratedLens> calibrateLens(std::span<const std::filesystem::path> photos, const CalibrateOptions& options) {
+Result<CalibratedLens> calibrateLens(std::span<const std::filesystem::path> photos, const CalibrateOptions& options, const Watch& watch) {
   if (photos.empty()) return fail(ErrorCode::BadInput, "there is no photo of a chessboard; give at least " + std::to_string(kFewestPhotos));
   if (options.corners && (options.corners->x < 3 || options.corners->y < 3))
     return fail(ErrorCode::BadInput, "a board of " + std::to_string(options.corners->x) + " x " + std::to_string(options.corners->y) + " inner corners is too small; it needs 3 x 3");
-  auto looked = lookedAt(photos, options);
+  auto looked = lookedAt(photos, options, watch);
   if (!looked) return looked.failure();
   try {
     return calibrated(*std::move(looked));

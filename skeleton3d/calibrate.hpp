@@ -11,6 +11,7 @@
 /// apart) and as photo.hpp says. Messages name the photos.
 /// Source: beyond L-Grammar Generator 2005.
 
+#include "base/progress.hpp"
 #include "base/result.hpp"
 #include "skeleton3d/types.hpp"
 
@@ -49,6 +50,7 @@ struct CalibratedLens {
   friend bool operator==(const CalibratedLens&, const CalibratedLens&) = default;
 };
 
-[[nodiscard]] Result<CalibratedLens> calibrateLens(std::span<const std::filesystem::path> photos, const CalibrateOptions& options = {});
+[[nodiscard]] Result<CalibratedLens> calibrateLens(std::span<const std::filesystem::path> photos, const CalibrateOptions& options = {},
+                                                    const Watch& watch = {});
 
 }  // namespace axil::skeleton3d
