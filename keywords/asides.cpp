@@ -86,9 +86,42 @@ std::size_t ParagraphReader::afterExcept(std::size_t i) const {
   constexpr std::size_t longest = 24;
   for (std::size_t at = i + 1; at < tokens_.size() && at < i + longest; ++at) {
     if (isAny(at, {",", ";", "。", "；"}) || isSentenceEnd(at)) return 0;
+    if (isAny(at, {"毛"}) && isAny(at - 1, {"緣", "缘", "睫", "纖", "纤"})) return 0;  // 除緣毛外無毛
     if (is(at, "外")) return at + 1;
   }
   return 0;
+}
+
+// Whether what follows is said of another kind of plant: "unlike", "but in A. alba", 後者, 有別於, 與具鋸齒的近緣種相似.
+bool ParagraphReader::beginsComparison(std::size_t i) const {
+  constexpr std::size_t far = 18;
+  if (isAny(i, {"unlike", "vs", "versus", "latter", "contrast"})) return true;
+  if (is(i, "in") && i + 2 < tokens_.size() && tokens_[i + 1].text.size() == 1 && tokens_[i + 1].kind == TokenKind::Word && isCapital(i + 1) && is(i + 2, ".") && !isSentenceEnd(i + 2)) return true;
+  if (is(i, "in") && i > 0 && isAny(i - 1, {"whereas", "while", "but", "not"})) {
+    for (std::size_t at = i + 1; at < i + 6; ++at)
+      if (isAny(at, {"species", "relatives", "allies", "congeners", "taxa", "taxon"})) return true;
+  }
+  if (!isHan(i)) return false;
+  if (isAny(i, {"後", "后"}) && is(i + 1, "者")) return true;
+  if (isAny(i, {"近", "相"}) && isAny(i + 1, {"緣", "缘", "似", "近"}) && isAny(i + 2, {"種", "种", "類", "类", "屬", "属"}) && !isAny(i + 3, {"子"})) return true;
+  if (isAny(i, {"於", "于"}) && i > 0 && isAny(i - 1, {"別", "别", "同", "異", "异"})) return true;
+  if (!isAny(i, {"與", "与", "和"})) return false;
+  bool kin = false;
+  for (std::size_t at = i + 1; at < i + far && isHan(at); ++at) {
+    kin = kin || (isAny(at, {"種", "种", "屬", "属", "者"}) && !is(at + 1, "子"));
+    if (kin && isAny(at, {"區", "区", "別", "别", "異", "异", "似", "同"})) return true;
+  }
+  return false;
+}
+
+// The token after what is only said of another kind of plant; 0 where none is spoken of.
+std::size_t ParagraphReader::afterComparison(std::size_t i) const {
+  if (!scope_.organInSentence && !isHan(i)) return 0;
+  if (!beginsComparison(i)) return 0;
+  const bool clause = isAny(i, {"latter", "in"});  // commas go on about it
+  std::size_t at = i + 1;
+  while (at < tokens_.size() && !isSentenceEnd(at) && !isAny(at, {";", "；", ")", "]"}) && (clause || !isAny(at, {",", "，"}))) ++at;
+  return at;
 }
 
 }  // namespace axil::keywords

@@ -187,7 +187,7 @@ ParagraphReader::Counted ParagraphReader::countedBy(std::size_t i) const {
   if (isAny(i, {"淺", "浅", "深", "中", "全"}) && is(i + 1, "裂")) return {"", "lobe", "", i + 2};
   if (isAny(i, {"淺", "浅", "粗", "細", "细"}) && isAny(i + 1, {"齒", "齿"}) && is(i + 2, "裂")) return {"", "tooth", "", i + 3};
   // 具1-3鈍齒, 有粗鋸齒5-8, 具二縱稜: the word behind is read as a term too.
-  if (isAny(i, {"鈍", "钝", "尖", "銳", "锐", "粗", "細", "细", "圓", "圆", "大", "小", "疏"}) && (isAny(i + 1, {"齒", "齿"}) || (isAny(i + 1, {"鋸", "锯"}) && isAny(i + 2, {"齒", "齿"})))) return {"", "tooth", "", i};
+  if (isAny(i, {"鈍", "钝", "尖", "銳", "锐", "粗", "細", "细", "圓", "圆", "大", "小", "疏", "淺", "浅"}) && (isAny(i + 1, {"齒", "齿"}) || (isAny(i + 1, {"鋸", "锯"}) && isAny(i + 2, {"齒", "齿"})))) return {"", "tooth", "", i};
   if (isAny(i, {"縱", "纵"}) && isAny(i + 1, {"稜", "棱", "肋", "脊"})) return {"", "rib", "", i};
   if (isAny(i, {"室"})) return {"ovary", "locule", "", i + 1};
   if (isAny(i, {"齒", "齿"}) && !isAny(i + 1, {"狀", "状"})) return {"", "tooth", "", i + 1};
@@ -202,7 +202,7 @@ ParagraphReader::Counted ParagraphReader::teethBehindCounter(std::size_t i) cons
   if (!isAny(i, {"個", "个", "枚", "對", "对"})) return {};
   const auto areTeeth = [&](std::size_t k) { return found_[k].as("margin") != nullptr && isAny(found_[k].end - 1, {"齒", "齿"}); };
   std::size_t at = i + 1;
-  while (at < i + 7 && at < tokens_.size() && !areTeeth(at) && (isAny(at, {"小", "大", "粗", "細", "细", "尖", "鈍", "钝", "的", "狀", "状"}) || isAny(at + 1, {"狀", "状"}))) ++at;
+  while (at < i + 10 && at < tokens_.size() && !areTeeth(at) && (isAny(at, {"小", "大", "粗", "細", "细", "尖", "鈍", "钝", "的", "狀", "状", "不", "明", "顯", "显", "規", "规", "則", "则", "整", "齊", "齐", "疏", "銳", "锐", "淺", "浅", "之", "圓", "圆"}) || isAny(at + 1, {"狀", "状"}) || isAny(at + 2, {"狀", "状"}))) ++at;
   return at < tokens_.size() && areTeeth(at) ? Counted{"", "tooth", isAny(i, {"對", "对"}) ? "pairs" : "", i + 1} : Counted{};
 }
 
@@ -210,6 +210,9 @@ std::size_t ParagraphReader::readCountedWord(std::size_t i, const NumberRange& r
   const std::size_t word = afterSharing(range.end);
   Counted counted = countedBy(word);
   if (counted.end == 0) counted = teethBehindCounter(range.end);
+  const bool cuts = counted.end == 0 && isAny(range.end, {"個", "个", "枚"}) && !isAny(range.end + 2, {"片"}) && !isAny(range.end + 3, {"片"});
+  if (cuts)  // 1-3個淺裂
+    if (const Counted cut = countedBy(range.end + 1); cut.piece == "lobe") counted = cut;
   if (counted.end == 0) return 0;
   if (word != range.end) counted.end = range.end + 1;
   const Concept* attributive = counted.organ.empty() ? organAfter(counted.end) : nullptr;

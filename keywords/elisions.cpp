@@ -58,19 +58,6 @@ bool ParagraphReader::readTernate(std::size_t i) {
   return true;
 }
 
-// "margins entire or with a few blunt teeth": toothed, where nothing but adjectives stands between.
-bool ParagraphReader::readTeeth(std::size_t i, const Concept& owner) {
-  if (!is(i, "teeth") || !isOneOf(owner.name, {"leaf", "leaflet", "pinna"}) || scope_.piece != nullptr || !scope_.organInSentence) return false;
-  std::size_t at = i;
-  while (at > 0 && at + 6 > i && (looksAdjectival(at - 1) || hasTraitMeaning(at - 1) || isAny(at - 1, {"a", "few", "some", "several", "very", "obscure", "coarse", "fine", "blunt", "sharp", "broad", "shallow", "remote"}) || !qualifierOf(tokens_[at - 1].text).empty())) --at;
-  if (at == 0 || !is(at - 1, "with") || isNegated(at - 1)) return false;
-  Trait trait = traitAt(at, i + 1, owner.name, "margin");
-  trait.value = "dentate";
-  trait.which = scope_.which;
-  keep(std::move(trait), true);
-  return true;
-}
-
 // "in threes", "whorled in fours": leaves at a node. The token after it.
 std::size_t ParagraphReader::readInThrees(std::size_t i) {
   constexpr std::array<std::string_view, 4> names{"threes", "fours", "fives", "sixes"};

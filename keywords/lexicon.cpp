@@ -95,6 +95,13 @@ std::vector<Found> findPhrases(const std::vector<Token>& tokens) {
         break;
       }
   }
+  // 葉舌狀 is 葉 and 舌狀, not 葉舌 and the rest.
+  for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+    const bool split = found[i] && tokens[i].kind == TokenKind::Han && found[i].end == i + 2 && found[i + 1].end == i + 3 && (tokens[i + 2].text == "狀" || tokens[i + 2].text == "状") && found[i].as("organ") != nullptr && found[i + 1].as("shape") != nullptr;
+    if (!split) continue;
+    for (const Phrase& phrase : *phrasesWith(tokens[i].text))
+      if (phrase.words.size() == 1) found[i] = {&phrase, i, i + 1};
+  }
   for (std::size_t i = 0; i + 1 < tokens.size(); ++i)
     if (found[i] && givesWay(found[i], i) && found[i].end < found[i + 1].end) found[i] = {};
   return found;

@@ -53,6 +53,7 @@ bool ParagraphReader::opensSentence(std::size_t i) const {
 std::size_t ParagraphReader::step(std::size_t i) {
   if (tokens_[i].kind == TokenKind::Sign) noteSign(i);
   if (const std::size_t end = afterExcept(i)) return end;
+  if (const std::size_t end = afterComparison(i)) return end;
   const bool termFirst = found_[i] && hasTraitMeaning(i) && found_[i].end > i + 1;  // 三出複葉, "3-nerved"
   if (!termFirst) {
     if (const std::size_t end = readAngle(i)) return end;

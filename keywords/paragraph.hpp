@@ -95,6 +95,7 @@ class ParagraphReader {
   [[nodiscard]] const Concept* nounAt(std::size_t i, std::string_view role = {}) const;
   [[nodiscard]] bool isVerbLeaves(std::size_t i) const;
   [[nodiscard]] bool isSwitchedOff(std::size_t i) const;
+  [[nodiscard]] bool opensDescription(std::size_t i) const;
   [[nodiscard]] bool isBranchNoun(std::size_t i) const;
   [[nodiscard]] bool isPlantNoun(std::size_t i) const;
   [[nodiscard]] bool isFlowerSpokenOf() const;
@@ -117,6 +118,8 @@ class ParagraphReader {
   [[nodiscard]] const Concept& stalkOf(const Concept& stalk) const;
   [[nodiscard]] const Concept& stipeOf(const Concept& stipe) const;
   [[nodiscard]] std::size_t afterExcept(std::size_t i) const;
+  [[nodiscard]] bool beginsComparison(std::size_t i) const;
+  [[nodiscard]] std::size_t afterComparison(std::size_t i) const;
   [[nodiscard]] const Concept* bladeOwner(std::size_t i) const;
   void noteNoun(std::size_t i);
   [[nodiscard]] bool isNamedAgain(std::size_t i, const Concept& organ) const;
@@ -173,10 +176,23 @@ class ParagraphReader {
   void readElidedPinnate(std::size_t i, const LastTerm& now);
   void readElidedCut(std::size_t i, const LastTerm& now);
   bool readTernate(std::size_t i);
-  bool readTeeth(std::size_t i, const Concept& owner);
   std::size_t readInThrees(std::size_t i);
   [[nodiscard]] bool isMannerOfAnother(std::size_t i, std::string_view value) const;
   void countVeins(std::size_t i);
+
+  // teeth.cpp
+  struct Teeth {
+    std::size_t first = 0;  ///< where their adjectives begin
+    bool fine = false;
+    bool blunt = false;
+  };
+  [[nodiscard]] Teeth teethAt(std::size_t i, std::size_t end) const;
+  [[nodiscard]] std::optional<Meaning> finerTeeth(std::size_t i, const Meaning& meaning) const;
+  bool readHanTeeth(std::size_t i, const Concept& owner);
+  void readFewLobes(std::size_t i, const Concept& owner);
+  bool readSpinesOfMargin(std::size_t i, const Concept& organ);
+  void readElidedDouble(std::size_t i, const LastTerm& now);
+  bool readTeeth(std::size_t i, const Concept& owner);
 
   // counts.cpp
   [[nodiscard]] bool isGathered(std::size_t i) const;

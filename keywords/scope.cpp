@@ -72,6 +72,13 @@ bool ParagraphReader::isPlantNoun(std::size_t i) const {
 // Words that name an organ and say something as well, where here they only say something.
 bool ParagraphReader::isSwitchedOff(std::size_t i) const { return is(i, "分") && found_[i].end == i + 2 && !isBranchNoun(i); }
 
+// "Standard orbicular, emarginate": at the begin of a sentence, with a shape behind it.
+bool ParagraphReader::opensDescription(std::size_t i) const {
+  if (!startsSentence(i) || namedAt_.empty() || i + 1 >= tokens_.size()) return false;
+  const Meaning* shape = found_[i + 1].as("shape");
+  return shape != nullptr;
+}
+
 // The organ, piece or place that the phrase at token i names, of that role where one is given.
 const Concept* ParagraphReader::nounAt(std::size_t i, std::string_view role) const {
   if (i >= tokens_.size() || isVerbLeaves(i)) return nullptr;
@@ -80,7 +87,7 @@ const Concept* ParagraphReader::nounAt(std::size_t i, std::string_view role) con
   const std::size_t end = found_[i].end;
   if (isHan(i) && isAny(end, {"狀", "状"}) && roleOf(*noun) == "organ") return nullptr;  // 花瓣狀
   const bool likeness = is(end, "like") || (is(end, "-") && isAny(end + 1, {"like", "shaped"}));  // "grass-like leaves"
-  if (likeness || (isAny(i, {"standard", "keel", "lip", "column", "columns"}) && end == i + 1 && !isFlowerSpokenOf())) return nullptr;
+  if (likeness || (isAny(i, {"standard", "keel", "lip", "column", "columns"}) && end == i + 1 && !isFlowerSpokenOf() && !opensDescription(i))) return nullptr;
   // 花 in 花費, 葉 in a name: one character of a longer word that the vocabulary does not know.
   const bool oneHan = isHan(i) && found_[i].end == i + 1;
   const bool aloneInWord = oneHan && tokens_[i].insideWord && !(i + 1 < tokens_.size() && found_[i + 1]) && !(i > 0 && (found_[i - 1] || isAny(i - 1, {"的", "本", "具"})));
@@ -233,6 +240,19 @@ void ParagraphReader::noteOrgan(std::size_t i, const Concept& organ) {
     scope_.organEnd = found_[i].end;
     return;
   }
+  const bool ofOrgan = scope_.piece != nullptr && of > 0 && is(of - 1, "of") && scope_.organEnd == of - 1;  // "lobes of the corolla 5"
+  if (const auto owners = ofOrgan ? ownersOf(*scope_.piece) : std::vector<std::string>{}; std::find(owners.begin(), owners.end(), organ.name) != owners.end()) {
+    scope_.organ = &organ;
+    scope_.organEnd = found_[i].end;
+    return;
+  }
+  if (readSpinesOfMargin(i, organ)) return;
+  const bool thoseOf = of > 1 && is(of - 1, "of") && isAny(of - 2, {"those", "that"}) && of > 2 && (tokens_[of - 3].kind == TokenKind::Sign || isAny(of - 3, {"and", "but", "while", "whereas"}));
+  if (thoseOf && scope_.place != nullptr) {  // "margins of the leaflets serrate, those of the stipules entire"
+    const Concept* place = scope_.place;
+    scope_ = {&organ, nullptr, nullptr, place, whichBefore(i), found_[i].end, true, true, true, false, nullptr, nullptr, nullptr};
+    return;
+  }
   if (isPlaceOnly(i) || isOfPlaceBefore(i)) {
     placeOnlyEnd_ = found_[i].end;
     return;
@@ -273,6 +293,7 @@ void ParagraphReader::notePiece(std::size_t i, const Concept& piece) {
   if (isWeak || isPlaceOnly(i) || placeOnlyEnd_ == found_[i].end || bareTube) return;
   const Concept* owner = ownerOf(piece, i);
   if (readTeeth(i, *owner)) return;
+  readFewLobes(i, *owner);
   if (!found_[i].as("organ")->everyday) weighNoun(i, *owner);
   scope_.organ = owner;
   scope_.piece = &piece;

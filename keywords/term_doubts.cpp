@@ -64,8 +64,13 @@ bool ParagraphReader::saysNothingOf(const Meaning& meaning, std::size_t i, const
   if (property == "arrangement" && value == "opposite" && isAny(i, {"in", "paired", "成"})) return isOneOf(name, {"flower", "fruit", "inflorescence", "thorn", "stamen", "seed", "bract", "plant"});
   if (property == "arrangement" && value == "rosette" && isAny(i, {"basal", "radical"}) && found_[i].end == i + 1) return !isPredicateBasal(i);
   if (property == "arrangement" && value == "whorled" && i > 0 && numberAt(tokens_, i - 1)) return isOneOf(name, {"tepal", "petal", "sepal", "stamen", "bract", "carpel", "calyx", "corolla", "perianth"});
+  if (property == "life form" && i > 1 && isAny(i - 1, {"old", "young", "adult", "mature", "juvenile"}) && isAny(i - 2, {"of", "on", "in"})) return true;  // "those of old trees entire"
   if (property == "life form" && i > 0 && isAny(i - 1, {"on", "of", "other", "under", "among", "host"})) return true;  // "on branches of other trees"
-  if (property == "margin" && value == "spinose" && place != nullptr && place->name == "apex") return true;  // 先端具刺狀尖頭
+  const bool hairsOrSpines = property == "margin" && isOneOf(value, {"spinose", "ciliate"});
+  if (hairsOrSpines && place != nullptr && isOneOf(place->name, {"apex", "surface"}) && !scope_.commaSincePlace) return true;  // 先端具刺狀尖頭, 背面具刺
+  if (property == "margin" && isHan(i) && (isAny(found_[i].end, {"間", "间"}) || (is(found_[i].end, "深") && isAny(found_[i].end + 1, {"淺", "浅"})))) return true;  // 缺刻間有小齒
+  const std::size_t next0 = found_[i].end;
+  if (property == "shape" && is(next0, "-") && next0 + 1 < tokens_.size() && found_[next0 + 1].as("margin") != nullptr && is(i, "rounded")) return true;  // "rounded-crenate"
   if (property == "branching" && name == "inflorescence" && isHan(i)) return isAny(i, {"單", "单"});
   if (property == "arrangement" && isHan(i) && isOneOf(value, {"fascicled", "scattered"}) && isAboutHairs(found_[i].end)) return true;
   if (property == "arrangement" && value == "spiral" && isAny(found_[i].end, {"twisted", "coiled", "contorted", "curved", "wound", "扭", "捲", "卷", "旋", "彎", "弯"})) return true;
@@ -94,7 +99,7 @@ bool ParagraphReader::saysNothingOf(const Meaning& meaning, std::size_t i, const
   if (property == "type" && meaning.category->defaultOrgan == "inflorescence" && isHan(i) && isAny(found_[i].end - 1, {"形", "狀", "状"})) return isOneOf(name, {"plant", "trunk", "branch"}) && scope_.organInSentence;
   if (property == "branching" && i > 0 && is(i - 1, "每")) return true;
   if (property == "margin" && value == "lobed" && i > 0 && isAny(i - 1, {"或", "至", "到"}) && lastCount_.piece == "lobe" && lastCount_.end + 1 == i) return true;  // 3淺裂或中裂
-  if (property == "margin" && isOneOf(value, {"lobed", "sinuate", "incised"})) return place != nullptr && isOneOf(place->name, {"base", "apex"});
+  if (property == "margin" && (isOneOf(value, {"lobed", "sinuate"}) || (value == "incised" && isOneOf(name, {"leaf", "leaflet", "pinna"})))) return place != nullptr && isOneOf(place->name, {"base", "apex"});
   return is(found_[i].end, "like") || (is(found_[i].end, "-") && is(found_[i].end + 1, "like"));
 }
 

@@ -100,7 +100,7 @@ const Meaning* ParagraphReader::meaningFor(const Found& f, const Concept* organ,
     if (isGrammarWord(*m.category)) continue;
     if (place != nullptr && m.category->part == place->name) return &m;
     const bool amongMargins = m.category->property == "margin" && last_.kept && last_.category == m.category && f.first < last_.end + 4;  // 全緣，稍反捲
-    if (amongMargins && place == nullptr) return &m;
+    if (amongMargins && place == nullptr && (isHan(f.first) || f.as("orientation") == nullptr)) return &m;
     const bool fits = accepts(*m.category, organ);
     if (fits && ofOrgan && m.category->ownOrgan && own == nullptr) own = &m;
     else if (fits && m.category->part.empty() && whole == nullptr) whole = &m;
@@ -144,6 +144,7 @@ bool ParagraphReader::continuesCompound(std::size_t i, const Category& category)
   // 圓齒狀鋸齒 is one kind of tooth, 刺狀細齒 says two things.
   if (isHan(i) && category.property == "margin") return last_.end == i && isAny(i - 1, {"狀", "状"}) && !isOneOf(result_.traits.back().value, {"spinose", "ciliate"});
   if (isHan(i)) return category.property == "shape" && (broadly || (last_.end == i && isHan(i - 1) && !is(i - 1, "形")));
+  if (category.property == "margin" && last_.end == i && tokens_[i - 1].text.ends_with("ly")) return true;  // "sinuately toothed"
   return last_.end + 1 == i && is(i - 1, "-");
 }
 
@@ -209,7 +210,8 @@ void ParagraphReader::keepTerm(std::size_t i, const Meaning& meaning, const Subj
   const bool ofNoneNamed = organ != nullptr && category.property == "arrangement" && !scope_.organInSentence && !attributive && isOneOf(organ->name, {"branch", "rhizome", "stem", "root", "tuber", "bulb", "bark", "trunk"});
   // Stems in a tuft are the habit of a plant, leaves in a tuft an arrangement.
   const bool tuft = organ != nullptr && isOneOf(organ->name, {"stem", "plant"}) && category.property == "arrangement" && meaning.entry->name == "fascicled" && (now.linked || attributive);
-  const bool placeHolds = place != nullptr && isOneOf(place->name, {"apex", "base"}) && category.property == "shape" && (placeNamed || !scope_.commaSincePlace);
+  const bool placeHolds = place != nullptr && isOneOf(place->name, {"apex", "base"}) && category.property == "shape" && (placeNamed || !scope_.commaSincePlace) &&
+                          !isOneOf(meaning.entry->name, {"pinnately lobed", "pinnatisect", "bipinnatifid", "palmately lobed"});
   Trait trait = traitAt(f.first, f.end, takesDefault || ofNoneNamed ? category.defaultOrgan : organ->name, placeHolds ? place->name : category.property);
   trait.value = meaning.entry->name;
   if (tuft) {
@@ -289,8 +291,10 @@ void ParagraphReader::readTerm(std::size_t i) {
   if (isOfAnotherOrgan(*meaning->category, organ, attributive != nullptr || named != nullptr)) return;
   const std::optional<Meaning> deeper = deeperCut(i, *meaning);
   if (deeper) meaning = &*deeper;
+  const std::optional<Meaning> finer = finerTeeth(i, *meaning);
+  if (finer) meaning = &*finer;
   // 螺旋狀排列的稜: said of what it stands before or of nothing.
-  if (attributive != nullptr && !meaning->category->ownOrgan && (!accepts(*meaning->category, attributive) || (ahead.piece != nullptr && meaning->category->property == "arrangement"))) return;
+  if (attributive != nullptr && !meaning->category->ownOrgan && (!accepts(*meaning->category, attributive) || (ahead.piece != nullptr && (meaning->category->property == "arrangement" || (meaning->category->property == "margin" && ahead.piece->name == "rib"))))) return;
   const bool atItsPlace = place != nullptr && place->name == meaning->category->part;
   const bool ofBase = meaning->category->part == "base" || (meaning->category->part == "apex" && isOneOf(meaning->entry->name, {"rounded", "truncate", "bilobed"}));
   if (meaning->everyday && ofBase && !atItsPlace) return;  // "sepals unequal"
@@ -311,12 +315,15 @@ void ParagraphReader::readTerm(std::size_t i) {
   now.linked = attributive != nullptr || named != nullptr || isRightBehindOrgan(i) || isChained(i);
   weighTerm(i, *meaning, now.linked);
   now.kept = !now.negated;
-  const bool ofTooth = attributive == nullptr && scope_.piece != nullptr && scope_.piece->name == "tooth" && meaning->category->property == "margin";  // 齒尖內彎，有時呈波狀
+  // 齒尖內彎，有時呈波狀; "8-12 spiny teeth": the margin's.
+  const Concept* teeth = attributive != nullptr ? ahead.piece : scope_.piece;
+  const bool ofTooth = teeth != nullptr && teeth->name == "tooth" && meaning->category->property == "margin";
   const bool ofWhole = attributive == nullptr && scope_.piece != nullptr && scope_.container == scope_.organ && !scope_.subjectInSegment && !isHan(i) && meaning->category->property == "margin";  // "with 3-4 lobes per side, doubly serrate"
-  const Subject subject{organ, attributive != nullptr ? ahead.piece : ofTooth || ofWhole ? nullptr : scope_.piece, attributive != nullptr, place, named != nullptr};
+  const Subject subject{organ, ofTooth ? nullptr : attributive != nullptr ? ahead.piece : ofWhole ? nullptr : scope_.piece, attributive != nullptr, place, named != nullptr};
   if (now.kept && meaning->category->property == "venation") countVeins(i);
   readElidedPinnate(i, now);
   readElidedCut(i, now);
+  readElidedDouble(i, now);
   if (now.kept && continuesCompound(i, *meaning->category)) extendCompound(f, meaning->entry->name);
   else keepTerm(i, *meaning, subject, now);
   last_ = now;
