@@ -35,8 +35,8 @@ std::string percent(double share) { return shortest(roundedTo(100 * share, 1)) +
 /// A grammar's text while it is written: whether a table is needed is decided once, and rules only name what is.
 class ExactText {
  public:
-  ExactText(const Measurements& m, const PlantStructure& structure, const ExactLayout& layout, const ExactPlan& plan, const EmitOptions& options)
-      : m_(m), structure_(structure), layout_(layout), plan_(plan), options_(options) {}
+  ExactText(const Measurements& m, const ExactLayout& layout, const ExactPlan& plan, const EmitOptions& options)
+      : m_(m), layout_(layout), plan_(plan), options_(options) {}
 
   std::string text() {
     heading();
@@ -231,7 +231,6 @@ class ExactText {
   }
 
   const Measurements& m_;
-  const PlantStructure& structure_;
   const ExactLayout& layout_;
   const ExactPlan& plan_;
   const EmitOptions& options_;
@@ -259,7 +258,7 @@ Result<simeco::Grammar> exactGrammar(const Measurements& m, const EmitOptions& o
         const ExactPlan plan = exactPlan(m, structure, layout, {wanted.maximumError * share, trend, divergence});
         nearest = nearest == 0 ? plan.worst : std::min(nearest, plan.worst);
         if (plan.worst > wanted.maximumError) continue;
-        std::string text = ExactText(m, structure, layout, plan, options).text();
+        std::string text = ExactText(m, layout, plan, options).text();
         // An arrangement that is regular is said in the rule, though a table could hide it in slightly fewer bytes.
         const double bits = descriptionLength(text.size(), plan, m.segments.size(), wanted.detail) * (divergence ? 1 - kReadable : 1);
         if (!best.empty() && bits >= least) continue;
