@@ -185,6 +185,7 @@ ParagraphReader::Counted ParagraphReader::countedBy(std::size_t i) const {
   if (isAny(i, {"瓣"}) && isAny(i + 1, {"裂", "開", "开"})) return {"fruit", "valve", "", i + 2};
   if (isAny(i, {"裂"})) return {"", "lobe", "", i + 1};
   if (isAny(i, {"淺", "浅", "深", "中", "全"}) && is(i + 1, "裂")) return {"", "lobe", "", i + 2};
+  if (isAny(i, {"淺", "浅"}) && isAny(i + 1, {"圓", "圆"}) && is(i + 2, "裂")) return {"", "lobe", "", i + 3};
   if (isAny(i, {"淺", "浅", "粗", "細", "细"}) && isAny(i + 1, {"齒", "齿"}) && is(i + 2, "裂")) return {"", "tooth", "", i + 3};
   // 具1-3鈍齒, 有粗鋸齒5-8, 具二縱稜: the word behind is read as a term too.
   if (isAny(i, {"鈍", "钝", "尖", "銳", "锐", "粗", "細", "细", "圓", "圆", "大", "小", "疏", "淺", "浅"}) && (isAny(i + 1, {"齒", "齿"}) || (isAny(i + 1, {"鋸", "锯"}) && isAny(i + 2, {"齒", "齿"})))) return {"", "tooth", "", i};

@@ -33,7 +33,7 @@ bool ParagraphReader::isPlaceOnly(std::size_t i) const {
   if (isHan(i) && isAny(before, {"每", "各"})) return scope_.organInSentence;
   if (isGoal(i)) return scope_.organInSentence;
   const std::size_t behind = found_[i].end;  // 莖下部者3-4枚輪生: which of the leaves
-  if (isHan(i) && isAny(behind, {"上", "下"}) && is(behind + 1, "者")) return scope_.organInSentence;
+  if (isHan(i) && isAny(behind, {"上", "下"}) && isAny(behind + 1, {"者", "的"})) return scope_.organInSentence;
   if (isHan(i) && isAny(behind, {"上", "下", "中", "基", "頂", "顶"}) && is(behind + 1, "部") && is(behind + 2, "者")) return scope_.organInSentence;
   const bool tipOf = isHan(i) && last_.end == i && last_.kept && isAny(found_[i].end, {"端", "頂", "顶", "梢", "先"});  // 單生莖端
   if (tipOf) return scope_.organInSentence;

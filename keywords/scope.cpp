@@ -313,7 +313,8 @@ void ParagraphReader::notePiece(std::size_t i, const Concept& piece) {
 void ParagraphReader::notePlace(std::size_t i, const Concept& place) {
   // 草本，基部分枝: where the plant branches.
   const bool ofPlant = scope_.organ != nullptr && isOneOf(scope_.organ->name, {"plant", "stem"});
-  if (ofPlant && is(found_[i].end, "分") && is(found_[i].end + 1, "枝")) return;
+  const std::size_t branches = found_[i].end + (isAny(found_[i].end, {"多", "少", "密", "常"}) ? 1 : 0);  // 基部多分枝
+  if (ofPlant && is(branches, "分") && is(branches + 1, "枝")) return;
   if (ofPlant && i > 0 && (is(i - 1, "from") || (i > 1 && is(i - 1, "the") && is(i - 2, "from")))) return;  // "annual, branched from the base, 5-40 cm"
   // "cordate at base" has taken its place along; "at base cordate" opens one.
   if (isPlaceOfTermBefore(i)) {

@@ -43,7 +43,7 @@ ParagraphReader::Teeth ParagraphReader::teethAt(std::size_t i, std::size_t end) 
   while (isAny(behind, {"較", "较", "甚", "極", "极", "均", "皆", "頗", "颇", "很"})) ++behind;
   if (nounAt(behind) == nullptr && (isFine(textAt(behind)) || isBlunt(textAt(behind)))) {
     std::size_t last = behind;
-    while (isFine(textAt(last)) || isBlunt(textAt(last))) ++last;
+    while (isFine(textAt(last)) || isBlunt(textAt(last)) || isAny(last, {"密", "尖", "淺", "浅", "疏", "短"})) ++last;
     if (last >= tokens_.size() || tokens_[last].kind == TokenKind::Sign || isAny(last, {"而", "且", "或", "至"}))
       for (std::size_t at = behind; at < last; ++at) note(at);
   }
@@ -89,18 +89,19 @@ bool ParagraphReader::readTeeth(std::size_t i, const Concept& owner) {
   while (at > 0 && at + 8 > i) {
     const std::size_t word = at - 1;
     if (isAny(word, {"with", "bearing", "having"})) break;
-    const bool hyphenated = is(word, "-") || is(at, "-");
+    const bool hyphenated = is(word, "-") || is(at, "-") || (word > 0 && is(word - 1, "-"));
     const bool plain = isAny(word, {"a", "few", "some", "several", "very", "obscure", "coarse", "fine", "blunt", "sharp", "broad", "shallow", "remote", "small", "minute", "large", "scattered", "distant", "low", "tiny", ","});
     if (!hyphenated && !plain && !looksAdjectival(word) && !hasTraitMeaning(word) && qualifierOf(tokens_[word].text).empty()) break;
     saidByTerm = saidByTerm || found_[word].as("margin") != nullptr;
     if (isAny(word, {"fine", "small", "minute", "tiny"})) value = value == "serrate" ? "serrulate" : "denticulate";
     if (isAny(word, {"forward", "antrorse", "saw", "ascending"})) value = value == "denticulate" ? "serrulate" : "serrate";
+    if (isAny(word, {"spine", "thorn", "prickle"})) value = "spinose";
     if (is(word, "rounded")) value = "crenate";
     --at;
   }
   if (at == 0 || !isAny(at - 1, {"with", "bearing", "having", "bears", "bear", "has", "have"}) || isNegated(at - 1)) return false;
   const bool saidBefore = last_.kept && last_.category != nullptr && last_.category->property == "margin" && last_.end + 1 == at;  // "serrate with bristle-tipped teeth"
-  if (saidByTerm || saidBefore) return true;
+  if (saidByTerm || saidBefore) return i + 1 >= tokens_.size() || tokens_[i + 1].kind != TokenKind::Number;  // "with teeth 6-10 per side"
   Trait trait = traitAt(at, i + 1, owner.name, "margin");
   trait.value = value;
   trait.which = scope_.which;

@@ -77,7 +77,7 @@ bool ParagraphReader::saysNothingOf(const Meaning& meaning, std::size_t i, const
   if (property == "arrangement" && value == "rosette" && is(i + 1, "出")) return numberAt(tokens_, found_[i].end).has_value() || isAny(found_[i].end, {"脈", "脉", "掌"});  // 基出3脈
   if (property == "arrangement" && value == "rosette" && isOneOf(name, {"inflorescence", "flower", "bud", "fruit"})) return true;
   const bool inDigits = isHan(found_[i].end - 1) && numberAt(tokens_, i) && property == "apex" && (place == nullptr || place->name != "apex");
-  if (inDigits && isOneOf(name, {"stigma", "ligule", "stipule", "bract", "lip", "style", "corolla", "calyx"})) return true;  // 柱頭2裂 counts its lobes
+  if (inDigits && isOneOf(name, {"stigma", "ligule", "stipule", "bract", "lip", "style", "corolla", "calyx", "leaf", "leaflet"})) return true;  // 柱頭2裂 counts its lobes
   if (property == "shape" && i > 0 && isAny(i - 1, {"成", "具", "有"}) && isBeforeStrangeNoun(found_[i].end)) return true;  // 膨大成紡錘形氣囊
   if (property == "shape" && name == "plant" && scope_.organEnd > 0 && isAny(scope_.organEnd - 1, {"冠", "crown"})) return !isOneOf(value, {"conical", "pyramidal", "globose", "cylindric", "hemispheric"});  // 樹冠卵形
   if (property == "type" && value == "solitary" && is(found_[i].end, "-")) return true;  // "single-nerved"

@@ -159,7 +159,7 @@ TEST_P(Floras, ReachTheGoals) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scripts, Floras, testing::Values("english_floras", "traditional_floras", "simplified_floras", "english_fresh", "traditional_fresh", "simplified_fresh", "english_fourth", "traditional_fourth", "simplified_fourth", "english_fifth", "traditional_fifth", "simplified_fifth", "english_sixth", "traditional_sixth", "simplified_sixth", "english_seventh", "traditional_seventh", "simplified_seventh",
-                         "english_eighth", "traditional_eighth", "simplified_eighth", "ninth", "turns", "tenth", "eleventh", "twelfth"), [](const auto& script) { return std::string(script.param); });
+                         "english_eighth", "traditional_eighth", "simplified_eighth", "ninth", "turns", "tenth", "eleventh", "twelfth", "thirteenth"), [](const auto& script) { return std::string(script.param); });
 
 }  // namespace
 }  // namespace axil::keywords
