@@ -16,6 +16,7 @@ constexpr int kRounds = 10;             // of a trend
 constexpr double kMostExtrapolation = 10;
 constexpr double kClear = 2;            // standard errors by which a layer is another thing than its parent
 constexpr double kCertain = 5;          // and by which it has nothing to do with it
+constexpr double kFewNodes = 100;       // a share of more is drawn to its parent the less
 constexpr double kNormalTail = 2.3;     // deviations beyond which plants are said to differ, 1 %
 
 /// Reorders `values`.
@@ -299,7 +300,8 @@ void pool(std::vector<Estimate*>& sisters, std::span<const double> expected, Sam
     // A layer that is clearly off its parent is another thing, and keeps to itself (the limited translation of Efron and Morris 1972).
     const double far = unsure > 0 ? off[i] * off[i] / unsure : 0;
     const double clearly = far > kCertain * kCertain ? 0 : far > kClear * kClear ? kClear * kClear / far : 1;
-    sisters[i]->pooled = total > 0 ? clearly * unsure / total : 0;
+    const double few = kind == SampleKind::Share ? std::min(1.0, kFewNodes / static_cast<double>(std::max<std::size_t>(1, sisters[i]->samples))) : 1;
+    sisters[i]->pooled = total > 0 ? few * clearly * unsure / total : 0;
     sisters[i]->value = sisters[i]->own - sisters[i]->pooled * off[i];
   }
 }

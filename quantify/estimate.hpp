@@ -36,7 +36,7 @@ enum class SampleKind { Plain, Share };
 [[nodiscard]] Estimate estimateOf(std::span<const Sample> samples, SampleKind kind);
 
 /// Draws sisters towards what their parent layer expects of each (`expected`), by empirical Bayes. A share is as unsure as its samples would be if the parent were right: none of
-/// three is no certainty.
+/// three is no certainty; and of more than a hundred samples it is drawn the less the more there are.
 void pool(std::vector<Estimate*>& sisters, std::span<const double> expected, SampleKind kind);
 
 /// The trend of samples that stand on axes: entries of `axisOf` are alike where samples share an axis.

@@ -1,5 +1,6 @@
 #include "quantify/schedule.hpp"
 
+#include "quantify/ages.hpp"
 #include "quantify/estimate.hpp"
 
 #include <algorithm>
@@ -269,18 +270,31 @@ bool branchesComeAtOnce(std::span<const MeasuredPlant> plants) {
   return atTips >= kFewest && passed >= atTips;
 }
 
-/// Where half of five sympodial plants and more are of one age and none is older, clearly smaller ones are no younger: their first axes have ended without a fork. First
-/// axes of monopodial plants go on; a smaller plant is a younger one.
-void shareAge(Schedule& schedule, std::span<const MeasuredPlant> plants) {
-  constexpr std::size_t kFewest = 5;
-  const auto sympodial = std::count_if(plants.begin(), plants.end(), [](const MeasuredPlant& p) { return p.structure->branching == Branching::Sympodial; });
-  if (plants.size() < kFewest || 2 * static_cast<std::size_t>(sympodial) < plants.size()) return;
-  double oldest = 0;
-  for (const PlantSchedule& plant : schedule.plants) oldest = std::max(oldest, plant.now);
-  const auto full = std::count_if(schedule.plants.begin(), schedule.plants.end(), [oldest](const PlantSchedule& p) { return p.now == oldest; });
-  if (2 * static_cast<std::size_t>(full) < plants.size()) return;
-  for (PlantSchedule& plant : schedule.plants)
-    if (plant.now + 1.5 < oldest) plant.now = oldest;
+/// What a plant shows of its age: of sympodial plants all axes are of one kind.
+ShownAge shownAgeOf(const MeasuredPlant& plant, double now, Insertions insertions, bool sympodial) {
+  ShownAge age;
+  age.now = now;
+  for (const Axis& axis : plant.structure->axes) {
+    ShownAge::Kind& kind = age.kinds[axis.order == 0 || sympodial ? 0 : 1];
+    const Segment& tip = plant.measurements->at(axis.tip());
+    const double stage = tip.level - (insertions == Insertions::AtOnce ? axis.order : 0);
+    const bool forks = forksAt(*plant.structure, axis, insertions);
+    const bool newest = !forks && stage + 0.5 > now;
+    kind.newest += newest ? 1 : 0;
+    kind.ended += !newest && !forks ? 1 : 0;
+    kind.nodes += static_cast<double>(axis.segments.size()) - (newest ? 1 : 0);
+  }
+  return age;
+}
+
+/// Plants in which everything has ended are older than they show.
+void setAges(Schedule& schedule, std::span<const MeasuredPlant> plants, Insertions insertions) {
+  const auto forking = std::count_if(plants.begin(), plants.end(), [](const MeasuredPlant& p) { return p.structure->branching == Branching::Sympodial; });
+  const bool sympodial = 2 * static_cast<std::size_t>(forking) > plants.size();
+  std::vector<ShownAge> shown;
+  for (const MeasuredPlant& plant : plants) shown.push_back(shownAgeOf(plant, ageOf(plant, insertions), insertions, sympodial));
+  const std::vector<double> ages = agesOf(shown);
+  for (std::size_t p = 0; p < plants.size(); ++p) schedule.plants[p].now = ages[p];
 }
 
 }  // namespace
@@ -296,13 +310,12 @@ Schedule scheduleOf(std::span<const MeasuredPlant> plants) {
   int orders = 0;
   for (const MeasuredPlant& plant : plants) {
     PlantSchedule own;
-    own.now = ageOf(plant, insertions);
     own.birth.assign(plant.measurements->segments.size(), 0);
     own.grows.assign(plant.structure->axes.size(), false);
     schedule.plants.push_back(std::move(own));
     orders = std::max(orders, plant.structure->orders);
   }
-  shareAge(schedule, plants);
+  setAges(schedule, plants, insertions);
   for (int order = 0; order < orders; ++order) {
     const std::vector<Case> cases = casesOf(plants, schedule, order, insertions);
     schedule.orders.push_back(orderSchedule(order, cases, insertions == Insertions::AtOnce ? -1 : 0));

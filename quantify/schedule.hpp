@@ -29,7 +29,7 @@ struct OrderSchedule {
 };
 
 struct PlantSchedule {
-  double now = 0;                 ///< stage of the newest segment; the first is 0. Where half of five sympodial plants and more are of one age and none is older, smaller ones are as old: their first axes have ended
+  double now = 0;                 ///< stage of the newest segment; the first is 0. Plants in which everything has ended may be older (five plants and more tell, by how often axes end and how many plants are of an age)
   std::vector<double> birth;      ///< stage of each segment
   std::vector<bool> grows;        ///< of each axis
 };

@@ -14,7 +14,7 @@
 
 namespace axil::quantify {
 
-/// An apex makes a segment a stage; at each node it passes a branch begins with `branching`; an axis of order 1 and more ends at a node with `ending`.
+/// An apex makes a segment a stage; at each node it passes a branch begins with `branching`; an axis of order 1 and more ends at a node with `ending`, the first with `leaderEnding`.
 struct KnownRules {
   int stages = 12;
   double length = 0.1;
@@ -24,6 +24,7 @@ struct KnownRules {
   double branching = 0.7;
   int branchesAtNode = 1;
   double ending = 0.05;
+  double leaderEnding = 0;
   double insertion_deg = 50;
   double insertionNoise_deg = 5;
   double divergence_deg = 137.5;
@@ -56,6 +57,7 @@ inline void growAxis(const KnownRules& rules, Rng& rng, skeleton3d::Skeleton& pl
       plant.leaves.push_back({stem, {at}, leaf.direction, leaf.adaxial, 0.05, 0.02, "ovate"});
     }
     if (order > 0 && rng.uniform() < rules.ending) break;
+    if (order == 0 && rules.leaderEnding > 0 && rng.uniform() < rules.leaderEnding) break;
     if (order + 1 < rules.orders && rng.uniform() < rules.branching)
       for (int b = 0; b < rules.branchesAtNode; ++b) {
         const double rotr = rad(rng.normal(rules.insertion_deg, rules.insertionNoise_deg));
