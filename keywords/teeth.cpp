@@ -88,7 +88,7 @@ bool ParagraphReader::readTeeth(std::size_t i, const Concept& owner) {
   std::string_view value = "dentate";
   while (at > 0 && at + 8 > i) {
     const std::size_t word = at - 1;
-    if (isAny(word, {"with", "bearing", "having"})) break;
+    if (isAny(word, {"with", "bearing", "having"}) || tokens_[word].kind == TokenKind::Number) break;
     const bool hyphenated = is(word, "-") || is(at, "-") || (word > 0 && is(word - 1, "-"));
     const bool plain = isAny(word, {"a", "few", "some", "several", "very", "obscure", "coarse", "fine", "blunt", "sharp", "broad", "shallow", "remote", "small", "minute", "large", "scattered", "distant", "low", "tiny", ","});
     if (!hyphenated && !plain && !looksAdjectival(word) && !hasTraitMeaning(word) && qualifierOf(tokens_[word].text).empty()) break;
