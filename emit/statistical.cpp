@@ -243,8 +243,10 @@ class FamilyText {
       const std::string turn = std::abs(beside) < 1e-3 ? "" : (beside > 0 ? "+" : "") + number(beside);
       const quantify::FamilyArm arm = arms == o.arms.end() ? quantify::FamilyArm{o.insertion, next.start} : arms->second[static_cast<std::size_t>(b)];
       const std::string which = arms == o.arms.end() ? "" : "OfArm" + std::to_string(b + 1);
-      text += "[rotr(" + positive(arm.insertion, named("insertion" + which, o)) + ")rotu(" + (arranged ? "around" + turn : kAnySide) + ")" +
-              lateral(o, next, positive(arm.start, named("start" + which, which.empty() ? next : o))) + "] ";
+      // One after the other: each may need a table, and tables stand in the order in which they were needed first.
+      const std::string axis = lateral(o, next, positive(arm.start, named("start" + which, which.empty() ? next : o)));
+      const std::string insertion = positive(arm.insertion, named("insertion" + which, o));
+      text += "[rotr(" + insertion + ")rotu(" + (arranged ? "around" + turn : kAnySide) + ")" + axis + "] ";
     }
     return text;
   }
@@ -277,13 +279,15 @@ class FamilyText {
   /// Each alternative once with leaves and once without, where only some nodes have them.
   std::string joined(const FamilyOrder& o, const std::vector<Alternative>& alternatives) {
     std::vector<Alternative> all;
+    const std::string leaves = hasLeaves(o) && o.leafShare >= kSome ? leavesOf(o) : "";
+    const std::string stem = alternatives.empty() ? "" : segment(o);
     for (const Alternative& a : alternatives) {
       if (!hasLeaves(o) || o.leafShare > kAll || o.leafShare < kSome) {
-        all.push_back({a.weight, a.share, segment(o) + (hasLeaves(o) && o.leafShare > kAll ? leavesOf(o) : "") + a.modules});
+        all.push_back({a.weight, a.share, stem + leaves + a.modules});
         continue;
       }
-      all.push_back({times(a.weight.empty() ? "1" : a.weight, number(o.leafShare)), a.share * o.leafShare, segment(o) + leavesOf(o) + a.modules});
-      all.push_back({times(a.weight.empty() ? "1" : a.weight, number(1 - o.leafShare)), a.share * (1 - o.leafShare), segment(o) + a.modules});
+      all.push_back({times(a.weight.empty() ? "1" : a.weight, number(o.leafShare)), a.share * o.leafShare, stem + leaves + a.modules});
+      all.push_back({times(a.weight.empty() ? "1" : a.weight, number(1 - o.leafShare)), a.share * (1 - o.leafShare), stem + a.modules});
     }
     std::string text;
     for (const Alternative& a : all) {
@@ -304,7 +308,8 @@ class FamilyText {
     std::vector<Alternative> all;
     for (const std::size_t f : fates) {
       const quantify::Fate& fate = o.fates.fates[f];
-      const std::string modules = axesAt(o, bears ? fate.branches : 0) + (fate.goesOn ? goingOn(o) : "");
+      const std::string on = fate.goesOn ? goingOn(o) : "";
+      const std::string modules = axesAt(o, bears ? fate.branches : 0) + on;
       const auto same = std::find_if(all.begin(), all.end(), [&](const Alternative& a) { return a.modules == modules; });
       const std::string weight = o.fates.byRank.size() < 2 ? number(fate.share) : fates.size() == 2 && f == fates.front() ? "(1-" + byRank(o, fates.back()) + ")" : byRank(o, f);
       if (same == all.end()) all.push_back({weight, fate.share, modules});
