@@ -287,13 +287,23 @@ ShownAge shownAgeOf(const MeasuredPlant& plant, double now, Insertions insertion
   return age;
 }
 
-/// Plants in which everything has ended are older than they show.
+/// Where half of the ages and more are one and none is greater, clearly smaller ones are taken to be the same.
+std::vector<double> mostlyOneAge(std::vector<double> ages) {
+  constexpr std::size_t kFewest = 5;
+  if (ages.size() < kFewest) return ages;
+  const double oldest = *std::max_element(ages.begin(), ages.end());
+  if (2 * static_cast<std::size_t>(std::count(ages.begin(), ages.end(), oldest)) < ages.size()) return ages;
+  for (double& age : ages) age = age + 1.5 < oldest ? oldest : age;
+  return ages;
+}
+
+/// Plants in which everything has ended are older than they show. Sympodial plants of a few modules end often, but have few nodes to tell it by: there most plants' age stands for all.
 void setAges(Schedule& schedule, std::span<const MeasuredPlant> plants, Insertions insertions) {
   const auto forking = std::count_if(plants.begin(), plants.end(), [](const MeasuredPlant& p) { return p.structure->branching == Branching::Sympodial; });
-  const bool sympodial = 2 * static_cast<std::size_t>(forking) > plants.size();
+  const bool sympodial = 2 * static_cast<std::size_t>(forking) >= plants.size();
   std::vector<ShownAge> shown;
   for (const MeasuredPlant& plant : plants) shown.push_back(shownAgeOf(plant, ageOf(plant, insertions), insertions, sympodial));
-  const std::vector<double> ages = agesOf(shown);
+  const std::vector<double> ages = sympodial ? mostlyOneAge(agesOf(shown)) : agesOf(shown);
   for (std::size_t p = 0; p < plants.size(); ++p) schedule.plants[p].now = ages[p];
 }
 
