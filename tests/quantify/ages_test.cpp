@@ -4,6 +4,7 @@
 #include "quantify/layers.hpp"
 
 #include <cmath>
+#include <cstdio>
 
 namespace axil::quantify {
 namespace {
@@ -33,6 +34,7 @@ TEST(Ages, SharesOfEndingAreUnbiasedWhereTheLeadingAxisMayEnd) {
     off += (share.own - rules.leaderEnding) / kSets;
     variance += 0.1 * 0.9 / static_cast<double>(share.samples) / kSets / kSets;
   }
+  std::printf("seeds 400 to 409, %d sets of 100 plants: share of endings of the leading axis off by %+.4f on the average, standard error %.4f\n", kSets, off, std::sqrt(variance));
   EXPECT_LT(std::abs(off), 3 * std::sqrt(variance)) << off << " with standard error " << std::sqrt(variance);
 }
 

@@ -43,7 +43,7 @@ Agreement agreement(const Mask& mask, std::vector<DrawnStem> stems) {
 }
 
 TEST(Mask, ThinStemsBeforeAPlainBackgroundAreFoundByTheirColourAndShadowsAreNot) {
-  for (const cv::Scalar colour : {cv::Scalar(95, 130, 60), cv::Scalar(96, 78, 62), cv::Scalar(150, 60, 50)}) {
+  for (const cv::Scalar& colour : {cv::Scalar(95, 130, 60), cv::Scalar(96, 78, 62), cv::Scalar(150, 60, 50)}) {
     const auto stems = plant(colour);
     const auto mask = maskByColour(photographed(stems), {{18, 24}, {582, 776}});
     ASSERT_TRUE(mask) << mask.error().message;

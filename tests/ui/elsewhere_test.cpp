@@ -60,7 +60,11 @@ TEST(Elsewhere, WhatEstimatedCamerasPlaceIsAsFarOffAsTheirClicksMiss) {
   ASSERT_TRUE(measured);
   ASSERT_EQ(placesOfWaiting(project, Placed{*measured}).size(), 1u);
   EXPECT_EQ(placesOfWaiting(project, Placed{*measured})[0].within_px, 0);
-  measured->cameras = {{.view = "front", .turned = {}, .rms_px = 1.5}, {.view = "right", .turned = {}, .rms_px = 2}, {.view = "top", .turned = {}, .rms_px = 9}};
+  for (const auto& [view, miss_px] : {std::pair{"front", 1.5}, {"right", 2.0}, {"top", 9.0}}) {
+    measured->cameras.emplace_back();
+    measured->cameras.back().view = view;
+    measured->cameras.back().rms_px = miss_px;
+  }
   EXPECT_EQ(placesOfWaiting(project, Placed{*measured})[0].within_px, 4);
 }
 
