@@ -35,7 +35,7 @@ class PathNotes : public TurtleSink {
 };
 
 /// Collects what the turtle draws of a part of the string. Widths stay as drawn; what starts on a segment of an earlier part names it by a number below
-/// `noOrgan`. `plantFrom` mends both.
+/// `noOrgan`. PlantJoiner mends both.
 class PlantMaker : public TurtleSink {
  public:
   PlantMaker(const Derivation& derivation, const LSystemView& view, std::vector<EarlierSegment> earlier = {})
